@@ -1,0 +1,38 @@
+# perfora_add_room(name SOURCES ... PUBLIC ... PRIVATE ...): one static library a room, alias Perfora::name.
+# perfora_add_test(name SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT s]): one GoogleTest program, registered with CTest.
+function(perfora_options target)
+  # -ffp-contract=off: the same bits with and without fused multiply-add hardware. No -ffast-math anywhere.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off -fno-math-errno)
+  if(PERFORA_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+function(perfora_add_room name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target perfora_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(Perfora::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/perfora>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
+  foreach(library IN LISTS ARG_PRIVATE)
+    target_link_libraries(${target} PRIVATE ${library})
+  endforeach()
+  perfora_options(${target})
+  set_property(GLOBAL APPEND PROPERTY PERFORA_ROOMS ${target})
+endfunction()
+
+function(perfora_add_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE PERFORA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PERFORA_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  perfora_options(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,47 @@
+// What is here: the families of perforation layouts and their options. What is not: packings.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "geometry/perforation.h"
+#include "io/schema.h"
+
+namespace perfora::geometry {
+
+enum class LayoutFamily { none, square, staggered, random, list };
+
+/// Options of the design file's [cell] and [layout] sections. Lengths in m.
+struct LayoutOptions {
+  double width = 0.150;
+  double height = 0.150;
+  LayoutFamily family = LayoutFamily::square;
+  double diameter = 0.020;
+  int rows = 6;
+  int columns = 6;
+  double stagger = 0.5;       ///< staggered: shift of every other row as a fraction of the horizontal pitch
+  double jitter = 0.0;        ///< square, staggered: each centre moves uniformly within a disc of this radius
+  int count = 36;             ///< random: number of holes
+  double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; random: kept while placing
+  std::vector<double> holes;  ///< list: rows of x, y, diameter
+  std::filesystem::path file; ///< list: CSV with columns x, y, diameter in metres instead of `holes`
+};
+
+void describe(io::Schema& schema, LayoutOptions& options);
+
+/// Lays the perforations out. `seed` feeds the random family and jitter only.
+/// Throws io::InputError (with the key's origin taken from `schema` when given) for overlapping holes, walls thinner than minimum_wall,
+/// a hole larger than the cell, an odd number of rows with a stagger that breaks periodicity, a random layout that does not fit, a bad CSV.
+PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema = nullptr);
+
+/// The same placement without refusing overlaps or thin walls: what constraints of a study are measured on.
+PerforationLayout place_perforations(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema = nullptr);
+
+/// Thinnest wall over all periodic pairs, own images included. Brute force below a few dozen holes, CGAL's Apollonius graph beyond;
+/// the definition is the brute-force one and the tests hold both to it.
+ThinnestWall thinnest_wall(const PerforationLayout& layout);
+ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout);
+ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout);
+
+}  // namespace perfora::geometry

@@ -1,0 +1,60 @@
+// What is here: how dense periodic disc packings are made, clipped by perforations, imported. What is not: HDF5 files (packing_file.h).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "geometry/packing.h"
+#include "geometry/perforation.h"
+#include "io/schema.h"
+
+namespace perfora::geometry {
+
+enum class PackingProtocol { dilate, quench };
+enum class ClipRule { centre, whole };
+
+/// Options of the design file's [packing] section. Lengths in m.
+struct PackingOptions {
+  double mean_diameter = 0.5044e-3;
+  double maximum_diameter = 1.0e-3;
+  double size_ratio = 3.0;           ///< d_max/d_min
+  double solid_fraction = 0.0;       ///< 0: what compaction reaches
+  PackingProtocol protocol = PackingProtocol::dilate;
+  ClipRule clip = ClipRule::centre;
+  std::filesystem::path file;        ///< CSV (x, y, radius in metres) to import instead of making one
+};
+
+void describe(io::Schema& schema, PackingOptions& options);
+
+/// Raised with every change of the bits make_packing gives.
+inline constexpr int packing_algorithm_version = 1;
+
+PackingKey packing_key(const PackingOptions& options, double width, double height, std::uint64_t seed);
+
+/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (model.md, "Size law").
+/// Throws io::InputError when the mean cannot be reached.
+double size_law_exponent(double mean_diameter, double maximum_diameter, double size_ratio);
+
+/// Number of discs make_packing will use for a wanted solid fraction (or its estimate of the jamming fraction when 0).
+std::int64_t expected_discs(const PackingOptions& options, double width, double height);
+
+/// The periodic, unclipped packing of a key; bitwise repeatable for one binary whatever the number of threads.
+/// A fraction that is not reached is `quality.reached = false`, not an exception. `progress(fraction_done, text)` may be empty.
+Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
+                     const std::function<void(double, const std::string&)>& progress = {});
+
+/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with file and line.
+Packing import_packing(const std::filesystem::path& csv, double width, double height);
+
+/// Removes the discs that a perforation takes away and sorts the rest along a Hilbert curve (neighbours in space become neighbours in memory).
+Packing clip_packing(const Packing& packing, const PerforationLayout& layout, ClipRule rule);
+
+/// Wall measured between the clipped discs (model.md: wider than the exact wall): the smallest distance, over pairs of holes with periodic images, left
+/// between the two voids as the discs border them. Infinite without holes.
+double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout& layout);
+
+/// Largest overlap, contacts, rattlers of a periodic packing as it stands.
+PackingQuality measure_packing(const Packing& packing);
+
+}  // namespace perfora::geometry

@@ -1,0 +1,43 @@
+// What is here: the append-only journal (one line an event, checksum, fsync, torn last line dropped), whole-file writes by rename,
+// and the rule for outputs that already exist.
+// What is not: what the events mean.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace perfora::io {
+
+/// Reads and appends DIR/journal.jsonl. Each line is `<crc32 of the text, 8 hex digits> <JSON text>`.
+class Journal {
+ public:
+  /// Opens or creates the file and takes an exclusive lock on it (flock); a torn last line is cut off.
+  /// Throws InputError when an earlier line fails its checksum (names the line) or another process holds the lock.
+  explicit Journal(std::filesystem::path path);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// All events so far, oldest first (JSON texts).
+  const std::vector<std::string>& events() const { return events_; }
+  /// Appends one event (no newline inside) and returns after fsync.
+  void append(std::string_view json);
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> events_;
+  int descriptor_ = -1;
+};
+
+/// Writes text whole: temporary name beside it, fsync, rename.
+void write_file(const std::filesystem::path& path, std::string_view text);
+/// Reads a whole file; throws InputError when it cannot.
+std::string read_file(const std::filesystem::path& path);
+/// Refuses an output that exists unless `force` or `resume`; InputError says which flags there are. Also refuses when its folder is missing or not writable.
+void check_output(const std::filesystem::path& path, bool force, bool resume);
+std::uint32_t crc32(std::string_view text);
+
+}  // namespace perfora::io

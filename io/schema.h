@@ -1,0 +1,163 @@
+// What is here: the generic table of keys (name, type, dimension, default, range, help) that the reader, --set, check,
+// nearest-key errors, study variables, the resolved configuration and the printed reference all use.
+// What is not: any physics; each room describes its own options struct to this table.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "io/error.h"
+
+namespace perfora::io {
+
+/// Physical dimension of a key. Plain numbers are SI; strings such as "20 mm", "2 MPa", "25 %" are taken for any dimension but `none`.
+/// `ratio` is a pure number that may be written in percent.
+enum class Dimension { none, ratio, length, area, stress, stiffness, density, time, rate, angle };
+
+/// Closed or half-open interval of allowed numbers; `text()` prints it for messages.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< true: `low` itself is not allowed
+  bool high_open = false;  ///< true: `high` itself is not allowed
+  bool contains(double value) const;  ///< false for NaN
+  std::string text() const;
+
+  static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
+  static Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false, true}; }
+  static Range between(double low, double high) { return {low, high, false, false}; }
+  static Range at_least(double low) { return {low, std::numeric_limits<double>::infinity(), false, true}; }
+};
+
+/// A value as written in a file or on the command line, before its key gives it a type.
+struct Value;
+using ValueList = std::vector<Value>;
+struct Value {
+  std::variant<bool, std::int64_t, double, std::string, ValueList> data;
+  int line = 0;
+};
+
+enum class KeyType { real, integer, boolean, text, choice, path, real_list, real_rows };
+
+/// One row of the table. `set` throws InputError with the given origin; `get` returns the current value (SI).
+struct Key {
+  std::string section;
+  std::string name;
+  KeyType type = KeyType::real;
+  Dimension dimension = Dimension::none;
+  Range range;
+  std::vector<std::string> choices;  ///< only for KeyType::choice
+  std::string default_text;          ///< the value the field had when it was described
+  std::string help;
+  std::function<void(const Value&, const Origin&)> set;
+  std::function<Value()> get;
+
+  std::string full_name() const { return section + "." + name; }
+  /// Whether a study may vary it (a number).
+  bool numeric() const { return type == KeyType::real || type == KeyType::integer; }
+};
+
+class Schema;
+
+/// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at that moment is the default.
+class Section {
+ public:
+  Section& real(std::string name, double& field, Dimension dimension, Range range, std::string help);
+  Section& integer(std::string name, std::int64_t& field, Range range, std::string help);
+  Section& integer(std::string name, int& field, Range range, std::string help);
+  Section& boolean(std::string name, bool& field, std::string help);
+  Section& text(std::string name, std::string& field, std::string help);
+  /// A relative path is resolved against the folder of the file it is written in.
+  Section& path(std::string name, std::filesystem::path& field, std::string help);
+  Section& real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range, std::string help);
+  /// A list of rows of `columns` numbers each, flattened row by row into `field` (size rows x columns).
+  Section& real_rows(std::string name, std::vector<double>& field, int columns, Dimension dimension, std::string help);
+  template <class Enum>
+  Section& choice(std::string name, Enum& field, std::vector<std::pair<std::string, Enum>> values, std::string help) {
+    std::vector<std::string> names;
+    for (const auto& value : values) names.push_back(value.first);
+    auto set_index = [&field, values](std::size_t index) { field = values[index].second; };
+    auto get_index = [&field, values]() -> std::size_t {
+      for (std::size_t k = 0; k < values.size(); ++k)
+        if (values[k].second == field) return k;
+      return 0;
+    };
+    return add_choice(std::move(name), std::move(names), std::move(set_index), std::move(get_index), std::move(help));
+  }
+
+ private:
+  friend class Schema;
+  Section(Schema& schema, std::string name) : schema_(&schema), name_(std::move(name)) {}
+  Section& add_choice(std::string name, std::vector<std::string> names, std::function<void(std::size_t)> set_index,
+                      std::function<std::size_t()> get_index, std::string help);
+  Section& add(Key key);
+  Schema* schema_;
+  std::string name_;
+};
+
+/// The table of keys of one options object. Not copyable: its keys are bound to that object's fields.
+class Schema {
+ public:
+  Schema() = default;
+  Schema(const Schema&) = delete;
+  Schema& operator=(const Schema&) = delete;
+  Schema(Schema&&) = delete;
+
+  Section section(std::string name, std::string help);
+  const std::vector<Key>& keys() const { return keys_; }
+  std::vector<std::string> section_names() const;
+  const std::string& section_help(std::string_view section) const;
+  /// nullptr when there is no such key.
+  const Key* find(std::string_view full_name) const;
+
+  /// Sets one key. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a bad value.
+  void set(std::string_view full_name, const Value& value, Origin origin);
+  /// Sets one numeric key in SI; throws as set() does.
+  void set_number(std::string_view full_name, double value, Origin origin);
+  double get_number(std::string_view full_name) const;
+  /// "section.key=value" as on the command line (value in TOML syntax, or a bare string).
+  void set_override(std::string_view text);
+  /// Where a key was last set: file and line, or "--set"; the default origin (file "default") otherwise.
+  Origin origin(std::string_view full_name) const;
+
+  /// The complete resolved configuration as TOML text (SI numbers, 17 digits, every key).
+  std::string to_toml() const;
+  /// The printed reference: a Markdown table a section.
+  std::string reference() const;
+
+ private:
+  friend class Section;
+  std::vector<std::pair<std::string, std::string>> sections_;
+  std::vector<Key> keys_;
+  std::vector<std::pair<std::string, Origin>> origins_;
+};
+
+/// One "section.key = value" of a TOML file, in file order. Array-of-table and deeper tables are flattened with dots.
+struct Entry {
+  std::string key;
+  Value value;
+};
+
+/// Reads a TOML file. Throws InputError for a missing, unreadable, over-large (> 16 MB) or malformed file.
+std::vector<Entry> read_toml(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in messages.
+std::vector<Entry> parse_toml(std::string_view text, const std::string& name);
+/// Sets every entry of the file in the schema; `title` is accepted as a free top-level string.
+void apply_toml(Schema& schema, const std::filesystem::path& path);
+void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file);
+
+/// Converts "20 mm", "2 MPa", "25 %" or a plain number to SI for the given dimension. Throws InputError (with `origin`).
+double parse_quantity(const Value& value, Dimension dimension, const Origin& origin);
+/// SI unit of a dimension as printed: "m", "Pa", "N/m", ...; "" for none and ratio.
+std::string_view si_unit(Dimension dimension);
+/// The unit names accepted for a dimension, for messages.
+std::string accepted_units(Dimension dimension);
+
+}  // namespace perfora::io

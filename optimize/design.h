@@ -1,0 +1,61 @@
+// What is here: the design, all keys of a design file together, with its seeds; reading and writing it.
+// What is not: what each key does (its own room).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/layout.h"
+#include "geometry/make_packing.h"
+#include "io/schema.h"
+#include "solver/options.h"
+
+namespace perfora::optimize {
+
+/// Four streams, all derived from `seed` unless set (> 0). Replicate r changes packing and noise only.
+struct Seeds {
+  std::int64_t seed = 1;
+  std::int64_t packing = 0, noise = 0, layout = 0, search = 0;  ///< 0: derived from `seed`
+
+  struct Effective {
+    std::uint64_t packing = 0, noise = 0, layout = 0, search = 0;
+  };
+  Effective effective(int replicate) const;
+};
+
+/// Every option of one design; plain, copyable.
+struct Design {
+  geometry::LayoutOptions layout;
+  geometry::PackingOptions packing;
+  solver::SolverOptions solver;
+  Seeds seeds;
+};
+
+/// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [measures] [output] [seeds].
+void describe(io::Schema& schema, Design& design);
+
+/// A design with its table of keys (bound to it) and where each value came from.
+class DesignFile {
+ public:
+  DesignFile();                                              ///< defaults
+  explicit DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+  Design& design() { return *design_; }
+  const Design& design() const { return *design_; }
+  io::Schema& schema() { return *schema_; }
+  const io::Schema& schema() const { return *schema_; }
+  /// Everything that can be said without placing discs: ranges across keys, horizon against the thinnest wall, overlapping holes, too many holes.
+  /// Throws io::InputError; returns warnings (walls thinner than 2 r_H, a coarse packing and what it costs, ...).
+  std::vector<std::string> validate() const;
+
+ private:
+  std::unique_ptr<Design> design_;
+  std::unique_ptr<io::Schema> schema_;
+};
+
+/// Raised with every change of what an evaluation gives; part of the cache key of studies.
+inline constexpr int results_version = 1;
+
+}  // namespace perfora::optimize

@@ -1,0 +1,87 @@
+// What is here: the one record of the project, Request -> Evaluation, the function that walks the whole way, and its JSON form (cache key,
+// journal line, message to a worker, result of the command line).
+// What is not: the search (driver.h), processes (executor.h).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "geometry/packing.h"
+#include "geometry/perforation.h"
+#include "optimize/design.h"
+#include "solver/response.h"
+#include "solver/run.h"
+
+namespace perfora::optimize {
+
+struct EvaluateOptions {
+  int threads = 1;
+  std::filesystem::path run_file;      ///< R.h5, empty: none
+  std::filesystem::path packing_file;  ///< P.h5 to take the periodic packing from (its key must agree); empty: make it or take it from memory
+  bool resume = false;
+  double wall_time_limit = 0.0;        ///< s, 0: none
+  std::string command_line;
+  std::function<void(double, const std::string&)> progress;
+};
+
+/// What `perfora pack` reports, beside what evaluate reports.
+struct PackSummary {
+  std::int64_t discs = 0, perforations = 0;
+  double mean_diameter = 0.0, solid_fraction = 0.0, porosity = 0.0, bonds_per_disc = 0.0;
+  geometry::ThinnestWall thinnest_wall;
+  double thinnest_wall_discretised = 0.0;
+  double max_overlap_ratio = 0.0, coordination_number = 0.0, rattler_fraction = 0.0;
+};
+
+/// Layout, periodic packing, clipped packing of one design and replicate, with what was measured on them.
+struct PackedDesign {
+  geometry::PerforationLayout layout;
+  geometry::Packing periodic;
+  geometry::Packing clipped;
+  PackSummary summary;
+};
+
+/// status, summary, curve of one design and replicate.
+struct Evaluation {
+  solver::RunStatus status = solver::RunStatus::completed;
+  std::string reason;
+  Seeds::Effective seeds;
+  int replicate = 0;
+  PackSummary pack;
+  solver::Summary summary;
+  solver::Performance performance;
+  solver::History curve;
+};
+
+/// Makes layout and packing (the packing is kept in memory per key and reused within this process; `packing_file` reads it from a file) and clips.
+/// Throws io::InputError; a packing that was not reached shows in periodic.quality.
+PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
+
+/// The whole way Design -> PerforationLayout -> Packing -> clipped Packing -> BondNetwork -> Simulation -> Response. Throws io::InputError for bad input only.
+Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
+
+/// JSON forms. SI, engineering strain, null for what was not reached, never NaN.
+nlohmann::json to_json(const PackSummary& summary);
+nlohmann::json to_json(const solver::Summary& summary);
+nlohmann::json to_json(const solver::Performance& performance);
+nlohmann::json to_json(const Seeds::Effective& seeds);
+/// schema "perfora.evaluate/1"; `with_curve` adds strain and stress arrays.
+nlohmann::json to_json(const Evaluation& evaluation, bool with_curve);
+Evaluation evaluation_from_json(const nlohmann::json& record);
+
+/// One request of a search: the resolved design as TOML text, replicate, results_version. Equal requests have equal keys.
+struct Request {
+  std::string design_toml;
+  int replicate = 0;
+  double until = 0.0;
+  std::string key() const;  ///< hash over everything above and results_version
+};
+nlohmann::json to_json(const Request& request);
+Request request_from_json(const nlohmann::json& record);
+/// Evaluates a request (used by in-process and child-process executors alike).
+Evaluation evaluate_request(const Request& request, int threads);
+
+}  // namespace perfora::optimize

@@ -1,0 +1,82 @@
+// What is here: what a compression gives, as plain data: history rows, events, summary. What is not: how it is computed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace perfora::solver {
+
+enum class RunStatus { completed, stopped, failed };
+
+/// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per metre of depth.
+/// Stresses are means since the last row; all else is at the row.
+struct History {
+  std::vector<double> strain_yy;      ///< engineering, compression positive
+  std::vector<double> strain_yy_log;
+  std::vector<double> stress_yy, stress_xx, stress_xy, stress_asymmetry;
+  std::vector<double> broken_bonds, fragments, contacts;
+  std::vector<double> time;
+  std::vector<double> external_work, elastic_bonds, elastic_contacts, kinetic, damage, friction, viscous, cundall;
+
+  /// Columns with their names and SI units, in file order (docs/formats.md).
+  struct Column {
+    const char* name;
+    const char* units;
+    std::vector<double> History::*values;
+  };
+  static const std::vector<Column>& columns();
+  std::size_t rows() const { return strain_yy.size(); }
+};
+
+enum class BreakMode : std::uint8_t { tension = 0, shear = 1 };
+
+/// One broken bond.
+struct BreakEvent {
+  double time = 0.0;    ///< s
+  double strain = 0.0;  ///< engineering
+  std::int32_t bond = 0;
+  std::int32_t i = 0, j = 0;
+  double x = 0.0, y = 0.0;  ///< midpoint, m
+  BreakMode mode = BreakMode::tension;
+  double energy = 0.0;  ///< U0 at the break, J/m
+};
+
+/// Scalar results of one run; NaN where a value was not reached (written as null).
+struct Summary {
+  RunStatus status = RunStatus::completed;
+  std::string reason;  ///< "reached strain 0.6", "wall time", "signal", "unstable step", ...
+  std::int64_t steps = 0;
+  double time_step = 0.0;
+  double rate = 0.0;                 ///< 1/s
+  double final_strain = 0.0;
+  double first_peak_stress = 0.0, first_peak_strain = 0.0;
+  double stress_drop_ratio = 0.0;    ///< smallest row stress after the first peak (before twice its strain + 1 %) over the peak
+  double plateau_stress = 0.0, plateau_start = 0.0, plateau_end = 0.0;
+  double minimum_stress_in_window = 0.0, undulation = 0.0;
+  double densification_strain = 0.0, efficiency_strain = 0.0, only_rising_strain = 0.0;
+  double energy_absorbed = 0.0;      ///< external work per reference area up to the end of the plateau window, J/m3
+  double cundall_share = 0.0;        ///< of the external work at the end
+  std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
+  std::int64_t fragments = 0;
+  double largest_fragment_fraction = 0.0;  ///< of the solid area
+  double max_overlap_in_run = 0.0;   ///< over <d>
+  double energy_residual = 0.0;
+  double stress_asymmetry = 0.0;     ///< max |sigma_xy - sigma_yx| over the run over the peak
+  // Validity.
+  double transits_before_peak = 0.0;
+  double kinetic_ratio_at_peak = 0.0;  ///< kinetic over elastic energy
+  double step_margin = 0.0;            ///< critical step by power iteration over the step used
+  double noise_mean = 1.0, noise_std = 0.0, noise_min = 1.0, noise_max = 1.0;
+};
+
+struct Performance {
+  double seconds = 0.0;
+  double steps_per_second = 0.0;
+  double ns_per_bond_step = 0.0;
+  int threads = 1;
+  std::string simd;
+  double peak_memory = 0.0;  ///< bytes
+};
+
+}  // namespace perfora::solver
