@@ -1,0 +1,19 @@
+// What is here: the list of subcommands; each function adds one to the program and, when it is the one asked for, stores its exit code.
+// What is not: what they do (one file a subcommand), shared flags (common.h).
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace perfora::app {
+
+/// A subcommand runs inside CLI11's parse, as the callback of its CLI::App; io::InputError and others pass through to main().
+void add_pack(CLI::App& program, int& exit_code);
+void add_evaluate(CLI::App& program, int& exit_code);
+void add_optimize(CLI::App& program, int& exit_code);
+void add_check(CLI::App& program, int& exit_code);
+void add_show(CLI::App& program, int& exit_code);
+void add_plot(CLI::App& program, int& exit_code);
+/// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
+void add_worker(CLI::App& program, int& exit_code);
+
+}  // namespace perfora::app

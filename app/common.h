@@ -1,0 +1,79 @@
+// What is here: flags every subcommand takes, exit codes, the JSON on standard output, stop signals.
+// What is not: the work of any subcommand.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/progress.h"
+#include "solver/response.h"
+
+namespace perfora::app {
+
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_input = 1,      ///< usage or input
+  exit_numerical = 2,  ///< packing not reached, unstable run, ...
+  exit_internal = 3,
+  exit_stopped = 75,   ///< by a signal or the wall-time limit, with a checkpoint written
+};
+
+/// Exit code of a run or a search that ended with `status`.
+ExitCode exit_code_of(solver::RunStatus status);
+
+/// Flags that read the same in every subcommand.
+struct CommonFlags {
+  std::vector<std::string> set;                ///< "section.key=value", in order
+  std::vector<std::int64_t> seed;              ///< empty or one entry: --seed
+  std::vector<std::int64_t> packing_seed, noise_seed, layout_seed, search_seed;
+  int threads = 0;                             ///< 0: not given
+  bool json = false, quiet = false, force = false;
+
+  /// --set first, then the seed flags as "seeds.seed=5", ...: what DesignFile takes.
+  std::vector<std::string> overrides() const;
+  /// --threads, or `otherwise` when it was not given; 0 stands for all cores.
+  int thread_count(int otherwise = 0) const;
+  /// Quiet or normal log; call first in every subcommand.
+  void apply() const;
+};
+
+/// Which of the common flags mean something for a subcommand; the others are accepted, hidden and without effect.
+enum class Uses { design, files_only };
+void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses = Uses::design);
+
+/// The one JSON object on standard output, two-space indent; NaN and infinity become null.
+void print_json(const nlohmann::json& object);
+/// Text on standard output (the readable summary when --json is not given).
+void print_text(const std::string& text);
+
+/// The command line as it was typed (for provenance); set by main().
+const std::string& command_line();
+void set_command_line(int argc, char** argv);
+
+/// SIGINT and SIGTERM ask the running compression to write a checkpoint and stop; a second one ends the program at once.
+void install_stop_handlers();
+
+/// A callback for EvaluateOptions::progress that draws io::Progress lines until it is destroyed; silent when quiet.
+class ProgressLine {
+ public:
+  ProgressLine(const std::string& title, bool quiet);
+  std::function<void(double, const std::string&)> callback();
+  void finish(const std::string& detail);
+
+ private:
+  std::shared_ptr<io::Progress> progress_;
+};
+
+/// The output path: `given`, or `fallback` in the current folder, announced on standard error.
+std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback);
+/// "stem of the design" + suffix.
+std::string default_name(const std::filesystem::path& design, const std::string& suffix);
+/// Logs each warning of DesignFile::validate().
+void log_warnings(const std::vector<std::string>& warnings);
+
+}  // namespace perfora::app
