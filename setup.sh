@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# What is here: installs the Debian 12 packages Perfora is built from, those that are missing only; asks nothing.
+# What is not: building and running (see ./run).
+#
+#   ./setup.sh             compiler and libraries
+#   ./setup.sh --viewers   also the programs that some tests open result files with (about 250 MB; used by .ci/run)
+#   ./setup.sh --list      prints the package names, installs nothing
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config              # build
+  libcgal-dev libeigen3-dev libnlopt-cxx-dev    # geometry, linear algebra, search
+  libhdf5-dev libtomlplusplus-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
+  librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
+  libgtest-dev libgmock-dev                     # tests
+)
+viewer_packages=(python3-paraview)
+
+with_viewers=no
+list_only=no
+for argument in "$@"; do
+  case "$argument" in
+    --viewers) with_viewers=yes ;;
+    --list) list_only=yes ;;
+    *) echo "setup.sh: unknown argument '$argument'; allowed: --viewers, --list" >&2; exit 1 ;;
+  esac
+done
+[ "$with_viewers" = yes ] && packages+=("${viewer_packages[@]}")
+if [ "$list_only" = yes ]; then printf '%s\n' "${packages[@]}"; exit 0; fi
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+  echo "setup.sh: this system has no apt; install the counterparts of these packages yourself: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: all ${#packages[@]} packages are there"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo > /dev/null; then
+    echo "setup.sh: packages are missing and there is no sudo; run as root: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  [ -t 0 ] || as_root=(sudo -n)
+fi
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive NEEDRESTART_MODE=a apt-get -q -y \
+    -o DPkg::Lock::Timeout=300 -o Dpkg::Options::=--force-confold -o Acquire::Retries=3 "$@" < /dev/null
+}
+echo "setup: installing ${missing[*]}"
+# An old package list is the usual reason for a failed install, so the list is renewed first; where that fails, the one that is there may do.
+apt update || echo "setup: the package list could not be renewed; going on with the one that is there" >&2
+apt install --no-install-recommends "${missing[@]}"
