@@ -1,4 +1,5 @@
-# The libraries Perfora stands on; each is a Debian 12 package (see setup.sh for their names).
+# What is here: the libraries Perfora stands on; each is a Debian 12 package (setup.sh names them).
+# What is not: compiler flags and room targets (PerforaTargets.cmake). PerforaConfig.cmake.in repeats this list for users of the installed libraries.
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(CGAL REQUIRED)
@@ -11,3 +12,15 @@ find_package(CLI11 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(nlopt REQUIRED IMPORTED_TARGET nlopt)
+
+# Headers alone, on the compiler's own path: found here so that a missing package is said by name, not by a failed include.
+foreach(pair IN ITEMS "toml++/toml.h;libtomlplusplus-dev" "Random123/philox.h;librandom123-dev" "nlopt.hpp;libnlopt-cxx-dev")
+  list(GET pair 0 header)
+  list(GET pair 1 package)
+  string(MAKE_C_IDENTIFIER "PERFORA_HAS_${header}" found)
+  find_file(${found} ${header})
+  mark_as_advanced(${found})
+  if(NOT ${found})
+    message(FATAL_ERROR "${header} is missing: install the Debian package ${package} (./setup.sh installs all of them)")
+  endif()
+endforeach()
