@@ -9,7 +9,8 @@
 
 namespace perfora::io {
 
-/// Where a value came from: a file with a line (0: no line known), "--set" or a command-line flag, and the key it was given for.
+/// Where a value came from: a file with a line (0: no line known), "--set" or a command-line flag, and the key it was
+/// given for.
 struct Origin {
   std::string file;
   int line = 0;
@@ -30,7 +31,8 @@ class InputError : public std::runtime_error {
   std::string problem_;
 };
 
-/// The candidate closest to `name` by edit distance (case-insensitive), or "" when none is within a third of its length.
+/// The candidate closest to `name` by edit distance (case-insensitive), or "" when none is within a third of its
+/// length.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace perfora::io

@@ -10,8 +10,9 @@
 
 namespace perfora::io {
 
-/// A file being written. It grows under "<path>.tmp-<pid>" and appears at `path` only when commit() succeeds; otherwise it is removed.
-/// Groups on the way to a dataset are made as needed. All datasets over 1 kB are shuffled and deflated. Throws std::runtime_error when the disk fails.
+/// A file being written. It grows under "<path>.tmp-<pid>" and appears at `path` only when commit() succeeds; otherwise
+/// it is removed. Groups on the way to a dataset are made as needed. All datasets over 1 kB are shuffled and deflated.
+/// Throws std::runtime_error when the disk fails.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::filesystem::path path);
@@ -20,13 +21,18 @@ class Hdf5Writer {
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
   void group(const std::string& name);
-  /// `columns` = 0: one-dimensional; otherwise shape (size/columns, columns). `units` becomes the attribute "units" when not empty.
+  /// `columns` = 0: one-dimensional; otherwise shape (size/columns, columns). `units` becomes the attribute "units"
+  /// when not empty.
   void dataset(const std::string& name, std::span<const double> data, int columns = 0, const std::string& units = {});
   void dataset(const std::string& name, std::span<const float> data, int columns = 0, const std::string& units = {});
-  void dataset(const std::string& name, std::span<const std::int32_t> data, int columns = 0, const std::string& units = {});
-  void dataset(const std::string& name, std::span<const std::int64_t> data, int columns = 0, const std::string& units = {});
-  void dataset(const std::string& name, std::span<const std::uint64_t> data, int columns = 0, const std::string& units = {});
-  void dataset(const std::string& name, std::span<const std::uint8_t> data, int columns = 0, const std::string& units = {});
+  void dataset(const std::string& name, std::span<const std::int32_t> data, int columns = 0,
+               const std::string& units = {});
+  void dataset(const std::string& name, std::span<const std::int64_t> data, int columns = 0,
+               const std::string& units = {});
+  void dataset(const std::string& name, std::span<const std::uint64_t> data, int columns = 0,
+               const std::string& units = {});
+  void dataset(const std::string& name, std::span<const std::uint8_t> data, int columns = 0,
+               const std::string& units = {});
   /// A scalar UTF-8 string dataset (the resolved configuration).
   void text(const std::string& name, const std::string& value);
   /// Attributes of an existing object ("/" for the file).
@@ -44,7 +50,8 @@ class Hdf5Writer {
   std::int64_t file_ = -1;
 };
 
-/// A file being read. Throws InputError naming the file (and the dataset) when it is missing, not HDF5, truncated, or lacks what is asked.
+/// A file being read. Throws InputError naming the file (and the dataset) when it is missing, not HDF5, truncated, or
+/// lacks what is asked.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::filesystem::path path);

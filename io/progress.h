@@ -1,5 +1,5 @@
-// What is here: log lines and progress (percent, rate, time left, current stress): a line that rewrites itself on a terminal, plain lines in a log.
-// What is not: any decision about the work.
+// What is here: log lines and progress (percent, rate, time left, current stress): a line that rewrites itself on a
+// terminal, plain lines in a log. What is not: any decision about the work.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,8 @@ void log_info(const std::string& text);
 void log_warning(const std::string& text);  ///< shown even when quiet
 void log_error(const std::string& text);
 
-/// One long piece of work. Updates are cheap to call; at most ten a second reach a terminal, one every ten seconds a log.
+/// One long piece of work. Updates are cheap to call; at most ten a second reach a terminal, one every ten seconds a
+/// log.
 class Progress {
  public:
   explicit Progress(std::string title);
@@ -30,7 +31,16 @@ class Progress {
   std::string title_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_;
+  double first_fraction_ = -1.0;  ///< of the first update: a resumed run does not start at 0
+  bool terminal_ = false;
   bool finished_ = false;
 };
+
+/// "42 s", "3 min 05 s", "2 h 07 min"; "unknown time" for NaN, negative or absurd values.
+std::string duration_text(double seconds);
+/// "title 42.3 %, 12 %/min, 4 min 48 s left | detail": what Progress prints after `seconds` of work since
+/// `first_fraction`.
+std::string progress_text(const std::string& title, double fraction, double first_fraction, double seconds,
+                          const std::string& detail);
 
 }  // namespace perfora::io

@@ -17,16 +17,16 @@
 
 namespace perfora::io {
 
-/// Physical dimension of a key. Plain numbers are SI; strings such as "20 mm", "2 MPa", "25 %" are taken for any dimension but `none`.
-/// `ratio` is a pure number that may be written in percent.
+/// Physical dimension of a key. Plain numbers are SI; strings such as "20 mm", "2 MPa", "25 %" are taken for any
+/// dimension but `none`. `ratio` is a pure number that may be written in percent.
 enum class Dimension { none, ratio, length, area, stress, stiffness, density, time, rate, angle };
 
 /// Closed or half-open interval of allowed numbers; `text()` prints it for messages.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;   ///< true: `low` itself is not allowed
-  bool high_open = false;  ///< true: `high` itself is not allowed
+  bool low_open = false;              ///< true: `low` itself is not allowed
+  bool high_open = false;             ///< true: `high` itself is not allowed
   bool contains(double value) const;  ///< false for NaN
   std::string text() const;
 
@@ -66,7 +66,8 @@ struct Key {
 
 class Schema;
 
-/// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at that moment is the default.
+/// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at
+/// that moment is the default.
 class Section {
  public:
   Section& real(std::string name, double& field, Dimension dimension, Range range, std::string help);
@@ -117,7 +118,8 @@ class Schema {
   /// nullptr when there is no such key.
   const Key* find(std::string_view full_name) const;
 
-  /// Sets one key. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a bad value.
+  /// Sets one key. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a
+  /// bad value.
   void set(std::string_view full_name, const Value& value, Origin origin);
   /// Sets one numeric key in SI; throws as set() does.
   void set_number(std::string_view full_name, double value, Origin origin);
@@ -153,7 +155,8 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& name);
 void apply_toml(Schema& schema, const std::filesystem::path& path);
 void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file);
 
-/// Converts "20 mm", "2 MPa", "25 %" or a plain number to SI for the given dimension. Throws InputError (with `origin`).
+/// Converts "20 mm", "2 MPa", "25 %" or a plain number to SI for the given dimension. Throws InputError (with
+/// `origin`).
 double parse_quantity(const Value& value, Dimension dimension, const Origin& origin);
 /// SI unit of a dimension as printed: "m", "Pa", "N/m", ...; "" for none and ratio.
 std::string_view si_unit(Dimension dimension);

@@ -1,0 +1,169 @@
+// What is here: reading a table of numbers with named columns. What is not: what the columns mean.
+#include "io/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "io/error.h"
+#include "io/journal.h"
+#include "io/value_text.h"
+
+namespace perfora::io {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view unquoted(std::string_view text) {
+  const bool quotes = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quotes ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  const bool commas = line.find(',') != std::string_view::npos;
+  while (!line.empty()) {
+    const std::size_t end = commas ? line.find(',') : line.find_first_of(blanks);
+    fields.push_back(unquoted(trimmed(line.substr(0, end))));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
+    if (!commas) line = trimmed(line);
+    if (commas && line.empty()) fields.emplace_back();  // a comma at the end leaves an empty last value
+  }
+  return fields;
+}
+
+/// A number, NaN and infinity included; nothing for other text.
+std::optional<double> number_of(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
+  return number;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// Walks the lines that hold something, comments cut off.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest_.substr(0, byte_order_mark.size()) == byte_order_mark) rest_.remove_prefix(byte_order_mark.size());
+  }
+
+  bool next() {
+    while (!rest_.empty()) {
+      const std::size_t end = rest_.find('\n');
+      const std::string_view line = rest_.substr(0, end);
+      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+      ++number_;
+      line_ = trimmed(line.substr(0, line.find('#')));
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+
+  std::string_view line() const { return line_; }
+  int number() const { return number_; }
+
+ private:
+  std::string_view rest_, line_;
+  int number_ = 0;
+};
+
+struct Layout {
+  std::size_t fields = 0;              ///< values in each line
+  std::vector<std::size_t> positions;  ///< of the wanted columns
+  bool header = false;
+};
+
+std::size_t position_of(const std::string& name, const std::vector<std::string>& names, const Origin& origin) {
+  const auto found = std::find(names.begin(), names.end(), lower(name));
+  if (found == names.end())
+    throw InputError(origin, fmt::format("has no column {}", name), "its columns are " + joined(names),
+                     fmt::format("name a column {}", name));
+  if (std::find(found + 1, names.end(), *found) != names.end())
+    throw InputError(origin, fmt::format("names the column {} twice", name), "", "remove one of them");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Layout layout_of(const std::vector<std::string_view>& first, const std::vector<std::string>& wanted,
+                 const Origin& origin) {
+  Layout layout{.fields = first.size(), .positions = {}, .header = false};
+  layout.header =
+      std::none_of(first.begin(), first.end(), [](std::string_view field) { return number_of(field).has_value(); });
+  if (!layout.header) {
+    layout.fields = wanted.size();
+    for (std::size_t k = 0; k < wanted.size(); ++k) layout.positions.push_back(k);
+    return layout;
+  }
+  std::vector<std::string> names;
+  for (const std::string_view field : first) names.push_back(lower(field));
+  for (const std::string& name : wanted) layout.positions.push_back(position_of(name, names, origin));
+  return layout;
+}
+
+double value_of(std::string_view text, const std::string& column, const Origin& origin) {
+  const std::optional<double> number = number_of(text);
+  if (number && std::isfinite(*number)) return *number;
+  const std::string found = text.empty() ? "is empty" : fmt::format("{} is not a finite number", in_quotes(text));
+  throw InputError(origin, fmt::format("column {}: {}", column, found),
+                   "plain numbers in SI with a decimal point are wanted", "correct this line");
+}
+
+void add_row(CsvTable& table, const Layout& layout, const std::vector<std::string>& wanted, const Lines& at,
+             const Origin& origin) {
+  const std::vector<std::string_view> fields = fields_of(at.line());
+  if (fields.size() != layout.fields)
+    throw InputError(origin, fmt::format("has {} values", fields.size()),
+                     layout.header ? fmt::format("the header names {} columns", layout.fields)
+                                   : fmt::format("the {} columns {} are wanted", layout.fields, joined(wanted)),
+                     layout.header ? "correct this line" : "correct this line or name the columns in a first line");
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    table.columns[k].push_back(value_of(fields[layout.positions[k]], wanted[k], origin));
+  table.lines.push_back(at.number());
+}
+
+}  // namespace
+
+CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
+  constexpr std::size_t largest_file = std::size_t{1} << 30;
+  const std::string text = read_file(path, largest_file);
+  const std::string file = path.string();
+  CsvTable table;
+  table.columns.resize(wanted.size());
+  Lines lines(text);
+  std::optional<Layout> layout;
+  while (lines.next()) {
+    const Origin origin{file, lines.number(), ""};
+    if (!layout) {
+      layout = layout_of(fields_of(lines.line()), wanted, origin);
+      if (layout->header) continue;
+    }
+    if (table.rows() == maximum_rows)
+      throw InputError(origin, fmt::format("is more than the {} rows allowed", maximum_rows), "", "shorten the file");
+    add_row(table, *layout, wanted, lines, origin);
+  }
+  if (table.rows() == 0)
+    throw InputError({file, 0, ""}, "holds no rows of numbers", fmt::format("columns {} are wanted", joined(wanted)),
+                     "check the path");
+  return table;
+}
+
+}  // namespace perfora::io

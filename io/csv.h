@@ -1,0 +1,25 @@
+// What is here: reading a table of numbers with named columns from a text file.
+// What is not: what the columns mean; writing.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace perfora::io {
+
+struct CsvTable {
+  std::vector<std::vector<double>> columns;  ///< one for each wanted name, in that order, equally long
+  std::vector<int> lines;                    ///< line of the file each row stands on, for messages
+  std::size_t rows() const { return lines.size(); }
+};
+
+/// Reads the columns `wanted`. The first line that is not blank may name the columns (in any order, any case; others
+/// are skipped); without such a line there must be exactly as many columns as wanted, in that order. Values are
+/// separated by commas, or by blanks where a line has no comma; '#' starts a comment. Numbers are taken as they are
+/// (SI). Throws InputError with file and line for a missing or empty file, a missing column, a wrong number of values,
+/// anything that is not a finite number, or more than `maximum_rows` rows.
+CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows);
+
+}  // namespace perfora::io

@@ -1,0 +1,203 @@
+// What is here: the table of keys: finding, setting by name, unknown names, --set, entries of a file.
+// What is not: how one key takes its value (schema_keys.cpp), printing (schema_print.cpp), TOML syntax
+// (toml_reader.cpp).
+#include "io/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/value_text.h"
+
+namespace perfora::io {
+namespace {
+
+struct SplitName {
+  std::string section, name;
+};
+
+SplitName split(std::string_view full_name, const std::vector<std::string>& sections) {
+  std::size_t dot = full_name.rfind('.');
+  if (dot == std::string_view::npos) return {"", std::string(full_name)};
+  if (std::find(sections.begin(), sections.end(), full_name.substr(0, dot)) == sections.end())
+    dot = full_name.find('.');
+  return {std::string(full_name.substr(0, dot)), std::string(full_name.substr(dot + 1))};
+}
+
+std::string in_brackets(const std::vector<std::string>& sections) {
+  std::vector<std::string> names;
+  for (const std::string& section : sections) names.push_back(fmt::format("[{}]", section));
+  return joined(names);
+}
+
+std::vector<std::string> sections_with(const std::vector<Key>& keys, std::string_view name) {
+  std::vector<std::string> sections;
+  for (const Key& key : keys)
+    if (key.name == name) sections.push_back(key.section);
+  return sections;
+}
+
+/// A key outside every section, or of a section nobody knows.
+[[noreturn]] void refuse_section(const SplitName& given, const std::vector<Key>& keys,
+                                 const std::vector<std::string>& sections, Origin origin) {
+  const std::vector<std::string> homes = sections_with(keys, given.name);
+  const std::string all = "sections are " + in_brackets(sections);
+  const std::string home = homes.empty() ? "" : fmt::format("the key {} belongs in {}", given.name, in_brackets(homes));
+  if (given.section.empty()) {
+    if (std::find(sections.begin(), sections.end(), given.name) != sections.end())
+      throw InputError(origin, "is a section, not a key",
+                       fmt::format("write [{}] on a line of its own, its keys below it", given.name));
+    throw InputError(origin, "stands outside every section", all, home);
+  }
+  const std::string nearest = nearest_name(given.section, sections);
+  std::string remedy = home;
+  if (!nearest.empty()) remedy = fmt::format("did you mean [{}]?", nearest);
+  throw InputError(origin, fmt::format("unknown section [{}]", given.section), all, remedy);
+}
+
+[[noreturn]] void refuse_name(const SplitName& given, const std::vector<Key>& keys, Origin origin) {
+  std::vector<std::string> here, everywhere;
+  for (const Key& key : keys) {
+    everywhere.push_back(key.name);
+    if (key.section == given.section) here.push_back(key.name);
+  }
+  const std::string problem = fmt::format("unknown key in [{}]", given.section);
+  const std::vector<std::string> homes = sections_with(keys, given.name);
+  const std::string nearest = nearest_name(given.name, here);
+  std::vector<std::string> hints;
+  if (!nearest.empty()) hints.push_back(fmt::format("did you mean {}.{}?", given.section, nearest));
+  if (!homes.empty()) hints.push_back(fmt::format("{} is a key of {}", given.name, in_brackets(homes)));
+  if (hints.empty()) {
+    const std::string elsewhere = nearest_name(given.name, everywhere);
+    if (!elsewhere.empty())
+      hints.push_back(fmt::format("did you mean {} in {}?", elsewhere, in_brackets(sections_with(keys, elsewhere))));
+  }
+  throw InputError(origin, problem, nearest.empty() ? fmt::format("its keys are {}", joined(here)) : "",
+                   fmt::format("{}", fmt::join(hints, "; ")));
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+bool holds_text(const Value& value) {
+  return std::holds_alternative<std::string>(value.data);
+}
+
+/// The value of a --set: TOML syntax where it is, otherwise the bare text; keys that hold text take any text.
+Value override_value(const Key* key, std::string_view text, const Origin& origin) {
+  const Value bare{std::string(text)};
+  if (!parse_toml_value(toml_literal(bare, Digits::shortest)))
+    throw InputError(origin, "the value is not valid UTF-8 text", "", "write it in UTF-8");
+  const std::optional<Value> parsed = parse_toml_value(text);
+  if (!parsed) return bare;
+  const bool wants_text =
+      key != nullptr && (key->type == KeyType::text || key->type == KeyType::choice || key->type == KeyType::path);
+  return wants_text && !holds_text(*parsed) ? bare : *parsed;
+}
+
+}  // namespace
+
+Section Schema::section(std::string name, std::string help) {
+  const auto same = [&name](const auto& section) { return section.first == name; };
+  if (std::none_of(sections_.begin(), sections_.end(), same)) sections_.emplace_back(name, std::move(help));
+  return Section(*this, std::move(name));
+}
+
+std::vector<std::string> Schema::section_names() const {
+  std::vector<std::string> names;
+  for (const auto& section : sections_) names.push_back(section.first);
+  return names;
+}
+
+const std::string& Schema::section_help(std::string_view section) const {
+  static const std::string none;
+  for (const auto& [name, help] : sections_)
+    if (name == section) return help;
+  return none;
+}
+
+const Key* Schema::find(std::string_view full_name) const {
+  for (const Key& key : keys_) {
+    const std::size_t dot = key.section.size();
+    if (full_name.size() == dot + 1 + key.name.size() && full_name[dot] == '.' &&
+        full_name.substr(0, dot) == key.section && full_name.substr(dot + 1) == key.name)
+      return &key;
+  }
+  return nullptr;
+}
+
+void Schema::set(std::string_view full_name, const Value& value, Origin origin) {
+  origin.key = full_name;
+  if (origin.line == 0) origin.line = value.line;
+  const Key* key = find(full_name);
+  if (key == nullptr) {
+    const std::vector<std::string> sections = section_names();
+    const SplitName given = split(full_name, sections);
+    if (std::find(sections.begin(), sections.end(), given.section) == sections.end())
+      refuse_section(given, keys_, sections, origin);
+    refuse_name(given, keys_, origin);
+  }
+  key->set(value, origin);
+  const auto same = [full_name](const auto& entry) { return entry.first == full_name; };
+  const auto known = std::find_if(origins_.begin(), origins_.end(), same);
+  if (known != origins_.end())
+    known->second = std::move(origin);
+  else
+    origins_.emplace_back(full_name, std::move(origin));
+}
+
+void Schema::set_number(std::string_view full_name, double value, Origin origin) {
+  const Key* key = find(full_name);
+  if (key != nullptr && !key->numeric()) {
+    origin.key = full_name;
+    throw InputError(origin, "is not a number that could be varied", "", "choose a key that holds one number");
+  }
+  set(full_name, Value{value}, std::move(origin));
+}
+
+double Schema::get_number(std::string_view full_name) const {
+  const Key* key = find(full_name);
+  if (key == nullptr || !key->numeric())
+    throw InputError({"", 0, std::string(full_name)}, key == nullptr ? "unknown key" : "is not a number",
+                     "a key that holds one number is wanted");
+  const Value value = key->get();
+  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*whole);
+  return std::get<double>(value.data);
+}
+
+void Schema::set_override(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos)
+    throw InputError({"--set", 0, ""}, in_quotes(text) + " has no equals sign", "section.key=value is wanted",
+                     "for example --set layout.diameter=22mm");
+  const std::string name(trimmed(text.substr(0, equals)));
+  const Origin origin{"--set", 0, name};
+  Value value = override_value(find(name), trimmed(text.substr(equals + 1)), origin);
+  set(name, value, origin);
+}
+
+Origin Schema::origin(std::string_view full_name) const {
+  for (const auto& [name, origin] : origins_)
+    if (name == full_name) return origin;
+  return {"default", 0, std::string(full_name)};
+}
+
+void apply_toml(Schema& schema, const std::filesystem::path& path) {
+  apply_entries(schema, read_toml(path), path.string());
+}
+
+void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file) {
+  for (const Entry& entry : entries) {
+    const Origin origin{file, entry.value.line, entry.key};
+    if (entry.key != "title" && entry.key != "description")
+      schema.set(entry.key, entry.value, origin);
+    else if (!holds_text(entry.value))
+      throw InputError(origin, "found " + describe_value(entry.value), "a text in quotes is wanted");
+  }
+}
+
+}  // namespace perfora::io

@@ -1,0 +1,98 @@
+// What is here: ranges in words, the resolved configuration as TOML, the printed reference.
+// What is not: setting values (schema_keys.cpp).
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/schema.h"
+#include "io/value_text.h"
+
+namespace perfora::io {
+namespace {
+
+std::string type_text(const Key& key) {
+  const std::string unit(si_unit(key.dimension));
+  const std::string in_unit = unit.empty() ? "" : fmt::format(", {}", unit);
+  switch (key.type) {
+    case KeyType::real:
+      return (key.dimension == Dimension::ratio ? "ratio" : "number") + in_unit;
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::boolean:
+      return "true or false";
+    case KeyType::text:
+      return "text";
+    case KeyType::choice:
+      return "choice";
+    case KeyType::path:
+      return "path";
+    case KeyType::real_list:
+      return "list of numbers" + in_unit;
+    case KeyType::real_rows:
+      return "list of rows of numbers" + in_unit;
+  }
+  return {};
+}
+
+std::string allowed_text(const Key& key) {
+  if (key.type == KeyType::choice) return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
+  const bool bounded = std::isfinite(key.range.low) || std::isfinite(key.range.high);
+  return bounded ? key.range.text() : "";
+}
+
+std::string table_cell(const std::string& text) {
+  std::string cell;
+  for (const char c : text) {
+    if (c == '|') cell += '\\';
+    cell += c == '\n' ? ' ' : c;
+  }
+  return cell;
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  if (std::isnan(value)) return false;
+  const bool above = low_open ? value > low : value >= low;
+  const bool below = high_open ? value < high : value <= high;
+  return above && below;
+}
+
+std::string Range::text() const {
+  const bool bounded_below = std::isfinite(low), bounded_above = std::isfinite(high);
+  if (!bounded_below && !bounded_above) return "any finite number";
+  if (bounded_below && bounded_above && !low_open && !high_open)
+    return fmt::format("{} to {}", shortest(low), shortest(high));
+  std::string words;
+  if (bounded_below) words = fmt::format("{} {}", low_open ? "greater than" : "at least", shortest(low));
+  if (bounded_above)
+    words += fmt::format("{}{} {}", words.empty() ? "" : " and ", high_open ? "less than" : "at most", shortest(high));
+  return words;
+}
+
+std::string Schema::to_toml() const {
+  std::string text;
+  for (const auto& [section, help] : sections_) {
+    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+    for (const Key& key : keys_)
+      if (key.section == section) text += fmt::format("{} = {}\n", key.name, toml_literal(key.get(), Digits::all_17));
+  }
+  return text;
+}
+
+std::string Schema::reference() const {
+  std::string text;
+  for (const auto& [section, help] : sections_) {
+    text +=
+        fmt::format("{}## [{}]\n\n{}\n\n| key | type, SI unit | default | allowed | what |\n|---|---|---|---|---|\n",
+                    text.empty() ? "" : "\n", section, help);
+    for (const Key& key : keys_) {
+      if (key.section != section) continue;
+      text += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", key.name, type_text(key), table_cell(key.default_text),
+                          table_cell(allowed_text(key)), table_cell(key.help));
+    }
+  }
+  return text;
+}
+
+}  // namespace perfora::io
