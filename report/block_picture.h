@@ -1,0 +1,56 @@
+// What is here: a block drawn disc by disc into a box of the page, and the colours of its discs by fragment or by size.
+// What is not: charts, files.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/packing.h"
+#include "geometry/perforation.h"
+#include "report/canvas.h"
+#include "report/run_result.h"
+
+namespace perfora::report {
+
+/// Discs in a cell with edges (h_xx, 0) and (h_xy, h_yy), m; equally long columns.
+struct BlockPicture {
+  double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;
+  std::vector<double> x, y, radius;
+  std::vector<Colour> colour;
+  /// Share by which a disc is drawn larger than it is, to close the pores of the packing (not the perforations); one
+  /// number a disc.
+  std::vector<double> growth;
+
+  double extent_x() const;  ///< width of the bounding box, m
+};
+
+/// The colour of every disc by its fragment: concrete for fragment 0, a colour that no touching fragment has for others
+/// of at least `dust` discs, one grey for what is smaller; lost bonds turn a disc dark red.
+BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped);
+/// Discs by size, light (small) to dark (large).
+BlockPicture picture_of_packing(const geometry::Packing& packing);
+Colour size_colour(double share);  ///< share 0 (smallest) to 1
+
+/// Colour numbers that are no hue.
+inline constexpr int main_colour = -1;
+inline constexpr int dust_colour = -2;
+
+/// One colour number (0 to colours - 1) a fragment, so that fragments with discs closer than 1.3 times the sum of their
+/// radii differ where that is possible; main_colour for fragment 0, dust_colour for crumbs. Cost: linear in the discs.
+std::vector<int> colour_fragments(const Frame& frame, std::span<const double> radius, int colours);
+
+/// The largest box of the block's shape inside `room`, centred in x and at the given share of the free height (0 top, 1
+/// bottom).
+Box fit_block(const BlockPicture& picture, const Box& room, double vertical_share);
+/// Draws the discs (periodic images included, cut at the outline) and the outline of the cell.
+void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture);
+/// A bar of a round length and its text, right aligned at (right, y).
+void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_metre);
+/// Only holes in a slab of concrete: a design that was not packed.
+void draw_layout(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout);
+/// The rims of the holes over an undeformed block drawn in `box`.
+void draw_perforation_rims(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout,
+                           const Colour& colour);
+
+}  // namespace perfora::report

@@ -1,0 +1,205 @@
+// What is here: ranges, panels and annotations of stress-strain curves. What is not: axes (chart.h).
+#include "report/curve_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perfora::report {
+namespace {
+
+constexpr double mega = 1e-6;
+constexpr double percent = 100.0;
+/// Empty share above the highest point, for the annotations.
+constexpr double headroom = 0.26;
+/// A curve that ends this many times above what matters before (densification) is cut off there.
+constexpr double cut_factor = 1.2;
+constexpr double magnify_below = 0.25;
+constexpr Colour target_text = hex(0x00704f);
+constexpr Colour plateau_colour = hex(0x00527f);
+
+struct Extent {
+  double strain = 0.0;     ///< largest, percent
+  double lowest = 0.0;     ///< MPa
+  double highest = 0.0;    ///< of all rows, MPa
+  double early = 0.0;      ///< up to the end of the plateau window, MPa
+  double in_window = 0.0;  ///< within it, MPa
+};
+
+Extent measure(const std::vector<Series>& series, const CurveMarks& marks) {
+  Extent extent;
+  const double start = marks.plateau_start.value_or(1.0);
+  const double end = marks.plateau_end.value_or(1.0);
+  for (const Series& curve : series)
+    for (std::size_t k = 0; k < curve.strain.size(); ++k) {
+      const double stress = curve.stress[k] * mega;
+      extent.strain = std::max(extent.strain, curve.strain[k] * percent);
+      extent.lowest = std::min(extent.lowest, stress);
+      extent.highest = std::max(extent.highest, stress);
+      if (curve.strain[k] <= end) extent.early = std::max(extent.early, stress);
+      if (curve.strain[k] >= start && curve.strain[k] <= end) extent.in_window = std::max(extent.in_window, stress);
+    }
+  extent.early = std::max(extent.early, marks.target_stress.value_or(0.0) * mega);
+  return extent;
+}
+
+Axis stress_axis(double top, double lowest) {
+  Axis axis;
+  axis.high = top > 0.0 ? top * (1.0 + headroom) : 1.0;
+  axis.low = lowest < -0.01 * axis.high ? std::max(1.1 * lowest, -0.3 * axis.high) : 0.0;
+  axis.label = "stress (MPa)";
+  return axis;
+}
+
+std::string mpa(double pascal) {
+  return short_number(pascal * mega) + " MPa";
+}
+std::string in_percent(double strain) {
+  return short_number(strain * percent, strain < 0.1 ? 2 : 3) + " %";
+}
+
+void draw_grounds(Canvas& canvas, Chart& chart, const CurveMarks& marks) {
+  (void)canvas;
+  if (marks.plateau_start && marks.plateau_end)
+    chart.x_band(*marks.plateau_start * percent, *marks.plateau_end * percent, palette::band, 0.75);
+  if (marks.target_stress && marks.target_tolerance)
+    chart.y_band((*marks.target_stress - *marks.target_tolerance) * mega,
+                 (*marks.target_stress + *marks.target_tolerance) * mega, palette::green, 0.18);
+}
+
+void draw_lines(Chart& chart, const std::vector<Series>& series, const CurveMarks& marks) {
+  for (const Series& curve : series) {
+    std::vector<double> strain(curve.strain.begin(), curve.strain.end());
+    std::vector<double> stress(curve.stress.begin(), curve.stress.end());
+    for (double& value : strain) value *= percent;
+    for (double& value : stress) value *= mega;
+    chart.polyline(strain, stress, curve.colour, curve.thickness, curve.opacity);
+  }
+  if (marks.target_stress)
+    chart.horizontal(*marks.target_stress * mega, chart.x_axis().low, chart.x_axis().high, palette::green, 2.0,
+                     {9.0, 6.0});
+  if (marks.plateau_stress && marks.plateau_start && marks.plateau_end)
+    chart.horizontal(*marks.plateau_stress * mega, *marks.plateau_start * percent, *marks.plateau_end * percent,
+                     plateau_colour, 3.0);
+  if (marks.densification_strain)
+    chart.vertical(*marks.densification_strain * percent, palette::soft_ink, 1.6, {3.0, 4.0});
+}
+
+/// The text of the plateau, in two lines at the top of its band.
+void annotate_window(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  if (!marks.plateau_start || !marks.plateau_end) return;
+  const double low = chart.px(*marks.plateau_start * percent);
+  const double high = std::min(chart.px(*marks.plateau_end * percent), chart.box().right());
+  if (low >= chart.box().right()) return;
+  const double middle = (low + high) / 2.0;
+  canvas.text(middle, chart.box().y + 24.0,
+              fmt::format("plateau {} to {} %", short_number(*marks.plateau_start * percent, 2),
+                          short_number(*marks.plateau_end * percent, 2)),
+              {.size = 15.0, .colour = plateau_colour, .align = Align::centre, .halo = false});
+  canvas.text(middle, chart.box().y + 48.0, marks.plateau_stress ? "mean " + mpa(*marks.plateau_stress) : "not reached",
+              {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre});
+}
+
+void annotate_densification(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  if (!marks.densification_strain) return;
+  const double x = chart.px(*marks.densification_strain * percent);
+  const std::string value = in_percent(*marks.densification_strain);
+  const TextStyle small{.size = 15.0, .colour = palette::soft_ink};
+  const bool fits = x + 10.0 + canvas.text_width("densification", small) <= chart.box().right();
+  const Align align = fits ? Align::left : Align::right;
+  const double at = fits ? x + 8.0 : x - 8.0;
+  canvas.text(at, chart.box().y + 24.0, "densification",
+              {.size = 15.0, .colour = palette::soft_ink, .align = align, .halo = true});
+  canvas.text(at, chart.box().y + 48.0, value,
+              {.size = 18.0, .colour = palette::soft_ink, .bold = true, .align = align, .halo = true});
+}
+
+void annotate_peak(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  if (!marks.peak_strain || !marks.peak_stress) return;
+  const double x = chart.px(*marks.peak_strain * percent);
+  const double y = chart.py(*marks.peak_stress * mega);
+  canvas.disc(x, y, 6.0, palette::paper, palette::vermilion, 3.0);
+  const double window = marks.plateau_start ? chart.px(*marks.plateau_start * percent) : chart.box().right();
+  const TextStyle style{.size = 18.0, .colour = palette::vermilion, .bold = true, .halo = true};
+  const TextStyle small{.size = 15.0, .colour = palette::vermilion, .halo = true};
+  const std::string value = mpa(*marks.peak_stress);
+  const std::string where = "first peak at " + in_percent(*marks.peak_strain);
+  const bool beside = x + 16.0 + canvas.text_width(where, small) < window;
+  const double left = beside ? x + 14.0 : x + 2.0;
+  canvas.text(left, beside ? y - 4.0 : y - 34.0, value, style);
+  canvas.text(left, beside ? y + 16.0 : y - 14.0, where, small);
+}
+
+void annotate_target(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  if (!marks.target_stress) return;
+  const double y = chart.py(*marks.target_stress * mega);
+  if (y < chart.box().y) return;
+  const std::string text = "target " + mpa(*marks.target_stress);
+  const TextStyle style{.size = 16.0, .colour = target_text, .bold = true, .halo = true};
+  const double window =
+      marks.plateau_start ? std::min(chart.px(*marks.plateau_start * percent), chart.box().right()) : chart.box().x;
+  const double width = canvas.text_width(text, style);
+  // Before the window the curve has fallen; behind it, it rises through the line.
+  const bool before = window - chart.box().x > width + 60.0;
+  canvas.text(before ? window - width - 12.0 : chart.box().right() - width - 10.0, y - 9.0, text, style);
+}
+
+/// Captions of the magnified panel, in the gap above it.
+void annotate_magnified(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  const double y = chart.box().y - 12.0;
+  canvas.text(chart.box().x, y, "the plateau, magnified", {.size = 16.0, .colour = palette::soft_ink});
+  if (!marks.target_stress) return;
+  const TextStyle style{.size = 16.0, .colour = target_text, .bold = true, .align = Align::right};
+  const std::string text = "target " + mpa(*marks.target_stress);
+  canvas.text(chart.box().right(), y, text, style);
+  const double left = chart.box().right() - canvas.text_width(text, style) - 10.0;
+  canvas.line(left - 44.0, y - 5.5, left, y - 5.5, palette::green, 2.0, {9.0, 6.0});
+}
+
+void annotate_cut(Canvas& canvas, const Chart& chart, const Extent& extent) {
+  if (extent.highest <= chart.y_axis().high) return;
+  // Left of the badge of the last snapshot.
+  canvas.text(chart.box().right() - 24.0, chart.box().y - 12.0,
+              fmt::format("rises to {} MPa", short_number(extent.highest)),
+              {.size = 15.0, .colour = palette::soft_ink, .align = Align::right});
+}
+
+}  // namespace
+
+Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>& series, const CurveMarks& marks) {
+  const Extent extent = measure(series, marks);
+  const double top = extent.early > 0.0 ? std::min(extent.highest, cut_factor * extent.early) : extent.highest;
+  const double level = std::max({marks.plateau_stress.value_or(0.0) * mega, marks.target_stress.value_or(0.0) * mega});
+  const bool magnified = marks.plateau_stress && level > 0.0 && level < magnify_below * extent.early;
+  constexpr double gap = 44.0;
+  const double upper_height = magnified ? 0.6 * (box.height - gap) : box.height;
+  const Axis strain{0.0, extent.strain > 0.0 ? extent.strain : 1.0, "engineering strain (%)"};
+
+  Chart upper(canvas, {box.x, box.y, box.width, upper_height}, strain,
+              stress_axis(std::max(top, level), extent.lowest));
+  draw_grounds(canvas, upper, marks);
+  upper.draw_axes(!magnified);
+  draw_lines(upper, series, marks);
+  annotate_window(canvas, upper, marks);
+  annotate_densification(canvas, upper, marks);
+  annotate_peak(canvas, upper, marks);
+  annotate_cut(canvas, upper, extent);
+  if (!magnified) {
+    annotate_target(canvas, upper, marks);
+    return upper;
+  }
+
+  Axis small = stress_axis(std::max(extent.in_window, 1.2 * level), extent.lowest);
+  small.high = std::min(small.high, 6.0 * level);
+  small.low = std::max(small.low, -0.2 * small.high);
+  small.label = "stress (MPa)";
+  Chart lower(canvas, {box.x, box.y + upper_height + gap, box.width, box.height - upper_height - gap}, strain, small);
+  draw_grounds(canvas, lower, marks);
+  lower.draw_axes();
+  draw_lines(lower, series, marks);
+  annotate_magnified(canvas, lower, marks);
+  return upper;
+}
+
+}  // namespace perfora::report

@@ -1,0 +1,44 @@
+// What is here: pictures of one run and of one packing, 1600 pixels wide (PNG; SVG and PDF by extension).
+// What is not: studies (plot_study.h).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/run_result.h"
+
+namespace perfora::report {
+
+struct PlotOptions {
+  std::string title;                    ///< "": the name of the file
+  std::optional<double> target_stress;  ///< Pa: a line to compare the plateau with
+};
+
+/// What plot_run shows: a run and up to three of its frames (intact, at the first peak, last).
+struct RunPicture {
+  const RunResult* run = nullptr;
+  struct Snapshot {
+    std::string caption;
+    Frame frame;
+  };
+  std::vector<Snapshot> snapshots;
+};
+
+/// The frames a picture shows: the first, the one nearest to the first peak (strain from the summary), the last; fewer
+/// where they coincide.
+std::vector<std::size_t> snapshot_frames(const RunResult& run);
+
+/// R.h5 -> picture: stress over strain with first peak, plateau and what else the summary knows; the block at up to
+/// three strains with its fragments. Throws io::InputError for a bad R.h5 or an extension other than .png, .svg, .pdf.
+void plot_run(const std::filesystem::path& run_file, const std::filesystem::path& out, const PlotOptions& options = {});
+void draw_run(const RunPicture& picture, const std::filesystem::path& out, const PlotOptions& options = {});
+
+/// P.h5 -> picture: the clipped block, discs by size, rims of the perforations, the size distribution and the measured
+/// quality.
+void plot_packing(const std::filesystem::path& packing_file, const std::filesystem::path& out,
+                  const PlotOptions& options = {});
+void draw_packing(const PackResult& pack, const std::filesystem::path& out, const PlotOptions& options = {});
+
+}  // namespace perfora::report

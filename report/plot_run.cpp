@@ -1,0 +1,190 @@
+// What is here: the picture of one run. What is not: the parts it is put together from (curve_panel.h,
+// block_picture.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/block_picture.h"
+#include "report/canvas.h"
+#include "report/curve_panel.h"
+#include "report/plot.h"
+
+namespace perfora::report {
+namespace {
+
+constexpr double page_width = 1600.0;
+constexpr double page_height = 1000.0;
+constexpr double left_margin = 120.0;
+constexpr double right_margin = 44.0;
+constexpr double middle = 850.0;  ///< where the blocks begin
+constexpr double caption_height = 36.0;
+constexpr double scale_height = 30.0;
+
+std::string describe_block(const RunResult& run) {
+  const std::size_t holes = run.layout.perforations.size();
+  return fmt::format("{} x {} mm block, {} perforation{}, {} discs of {} mm mean diameter, {} bonds",
+                     short_number(run.width * 1e3), short_number(run.height * 1e3), holes, holes == 1 ? "" : "s",
+                     with_thousands(run.clipped.size()), short_number(run.mean_diameter * 1e3),
+                     with_thousands(static_cast<std::int64_t>(run.bonds.size())));
+}
+
+std::string describe_damage(const RunResult& run) {
+  std::string text;
+  if (const auto broken = summary_number(run.summary, "broken_bonds"))
+    text += with_thousands(static_cast<std::int64_t>(*broken)) + " bonds broken";
+  if (const auto fragments = summary_number(run.summary, "fragments"))
+    text +=
+        fmt::format("{}{} fragments", text.empty() ? "" : ", ", with_thousands(static_cast<std::int64_t>(*fragments)));
+  return text;
+}
+
+CurveMarks marks_of(const RunResult& run, const PlotOptions& options) {
+  CurveMarks marks;
+  marks.peak_strain = summary_number(run.summary, "first_peak_strain");
+  marks.peak_stress = summary_number(run.summary, "first_peak_stress");
+  marks.plateau_stress = summary_number(run.summary, "plateau_stress");
+  if (const auto window = plateau_window(run.summary)) {
+    marks.plateau_start = window->first;
+    marks.plateau_end = window->second;
+  }
+  marks.densification_strain = summary_number(run.summary, "densification_strain");
+  marks.target_stress = options.target_stress;
+  return marks;
+}
+
+void draw_heading(Canvas& canvas, const RunResult& run, const PlotOptions& options) {
+  const std::string title = options.title.empty() ? run.path.stem().string() : options.title;
+  const TextStyle title_style{.size = 30.0, .bold = true};
+  const TextStyle line_style{.size = 17.0, .colour = palette::soft_ink};
+  canvas.text(44.0, 56.0, canvas.fit(title, middle + 300.0, title_style), title_style);
+  const std::string damage = describe_damage(run);
+  canvas.text(44.0, 88.0,
+              canvas.fit(describe_block(run) + (damage.empty() ? "" : "; " + damage), page_width - 88.0, line_style),
+              line_style);
+  if (run.status != "completed" && !run.status.empty())
+    canvas.text(page_width - right_margin, 56.0,
+                canvas.fit(run.status + ": " + run.reason, 420.0, {.size = 18.0, .bold = true}),
+                {.size = 18.0, .colour = palette::vermilion, .bold = true, .align = Align::right});
+}
+
+/// Where the snapshots stand on the curve: lettered badges over the upper edge, moved apart where they would overlap.
+void draw_badges(Canvas& canvas, const Chart& chart, const std::vector<RunPicture::Snapshot>& snapshots) {
+  constexpr double spacing = 27.0;
+  double last = -1e9;
+  const double y = chart.box().y - 18.0;
+  for (std::size_t k = 0; k < snapshots.size(); ++k) {
+    const double exact = chart.px(snapshots[k].frame.info.strain * 100.0);
+    const double x = std::max(exact, last + spacing);
+    last = x;
+    canvas.line(exact, chart.box().y, exact, chart.box().y + 8.0, palette::ink, 1.6);
+    canvas.line(exact, chart.box().y, x, y + 11.0, palette::ink, 1.2);
+    canvas.badge(x, y, std::string(1, static_cast<char>('A' + k)));
+  }
+}
+
+void draw_snapshot(Canvas& canvas, const RunResult& run, const RunPicture::Snapshot& snapshot, char letter,
+                   const Box& room) {
+  const BlockPicture picture = picture_of_frame(snapshot.frame, run.clipped);
+  const Box box = fit_block(
+      picture, {room.x, room.y + caption_height, room.width, room.height - caption_height - scale_height}, 0.0);
+  canvas.badge(box.x + 11.5, box.y - 18.0, std::string(1, letter));
+  canvas.text(box.x + 32.0, box.y - 12.0, snapshot.caption, {.size = 17.0});
+  draw_block(canvas, box, picture);
+  draw_scale_bar(canvas, box.right(), box.bottom() + 22.0, box.width / picture.extent_x());
+}
+
+void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
+  const double width = page_width - right_margin - middle;
+  constexpr double gap = 26.0;
+  constexpr double top = 120.0;
+  const std::size_t count = picture.snapshots.size();
+  if (count == 0) {
+    canvas.text(middle + width / 2.0, page_height / 2.0, "no frames in this file (output.frames = \"none\")",
+                {.size = 18.0, .colour = palette::soft_ink, .align = Align::centre});
+    return;
+  }
+  const RunResult& run = *picture.run;
+  const Box whole{middle, top, width, page_height - top - 50.0};
+  if (count == 1) return draw_snapshot(canvas, run, picture.snapshots[0], 'A', whole);
+  const double half = (width - gap) / 2.0;
+  const double upper_height =
+      count == 2 ? 0.48 * whole.height
+                 : std::min(caption_height + half * run.height / run.width + scale_height, 0.6 * whole.height);
+  const Box lower{middle, top + upper_height + gap, width, whole.height - upper_height - gap};
+  if (count == 2) {
+    draw_snapshot(canvas, run, picture.snapshots[0], 'A', {middle, top, width, upper_height});
+    return draw_snapshot(canvas, run, picture.snapshots[1], 'B', lower);
+  }
+  draw_snapshot(canvas, run, picture.snapshots[0], 'A', {middle, top, half, upper_height});
+  draw_snapshot(canvas, run, picture.snapshots[1], 'B', {middle + half + gap, top, half, upper_height});
+  draw_snapshot(canvas, run, picture.snapshots[2], 'C', lower);
+}
+
+void draw_key(Canvas& canvas) {
+  double x = middle;
+  const double y = page_height - 26.0;
+  const auto entry = [&](const Colour& colour, const std::string& text) {
+    canvas.disc(x + 7.0, y - 5.5, 7.0, colour, palette::soft_ink, 0.8);
+    canvas.text(x + 21.0, y, text, {.size = 15.0, .colour = palette::soft_ink});
+    x += 21.0 + canvas.text_width(text, {.size = 15.0}) + 26.0;
+  };
+  entry(palette::concrete, "largest fragment");
+  entry(palette::fragments()[0], "");
+  x -= 36.0;
+  entry(palette::fragments()[1], "");
+  x -= 36.0;
+  entry(palette::fragments()[2], "other fragments");
+  entry(palette::damaged, "bonds lost");
+  entry(palette::dust, "crumbs");
+}
+
+std::string caption_of(const FrameInfo& info, const char* what) {
+  return fmt::format("{}, {} % strain", what, short_number(info.strain * 100.0, info.strain < 0.1 ? 2 : 3));
+}
+
+}  // namespace
+
+std::vector<std::size_t> snapshot_frames(const RunResult& run) {
+  if (run.frames.empty()) return {};
+  std::vector<std::size_t> chosen = {0};
+  if (const auto peak = summary_number(run.summary, "first_peak_strain")) {
+    const auto nearest = std::min_element(run.frames.begin(), run.frames.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.strain - *peak) < std::abs(b.strain - *peak);
+    });
+    chosen.push_back(static_cast<std::size_t>(nearest - run.frames.begin()));
+  }
+  chosen.push_back(run.frames.size() - 1);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+void draw_run(const RunPicture& picture, const std::filesystem::path& out, const PlotOptions& options) {
+  Canvas canvas(out, page_width, page_height);
+  const RunResult& run = *picture.run;
+  draw_heading(canvas, run, options);
+  const Chart chart =
+      draw_curve_panel(canvas, {left_margin, 156.0, middle - left_margin - 50.0, page_height - 156.0 - 78.0},
+                       {{run.column("strain_yy"), run.column("stress_yy")}}, marks_of(run, options));
+  draw_badges(canvas, chart, picture.snapshots);
+  draw_snapshots(canvas, picture);
+  if (!picture.snapshots.empty()) draw_key(canvas);
+  canvas.write();
+}
+
+void plot_run(const std::filesystem::path& run_file, const std::filesystem::path& out, const PlotOptions& options) {
+  const RunResult run = read_run(run_file);
+  RunPicture picture{&run, {}};
+  const auto peak = summary_number(run.summary, "first_peak_strain");
+  const std::vector<std::size_t> chosen = snapshot_frames(run);
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const FrameInfo& info = run.frames[chosen[k]];
+    const bool at_peak = peak && k > 0 && k + 1 < chosen.size();
+    const char* what =
+        info.strain < 1e-6 ? "intact" : (at_peak ? "near the first peak" : (k + 1 == chosen.size() ? "last" : "first"));
+    picture.snapshots.push_back({caption_of(info, what), read_frame(run, chosen[k])});
+  }
+  draw_run(picture, out, options);
+}
+
+}  // namespace perfora::report
