@@ -59,7 +59,9 @@ struct Case {
   const char* complaint;  ///< "" where the include is right
 };
 
-void PrintTo(const Case& item, std::ostream* out) { *out << item.include << " in " << item.path; }
+void PrintTo(const Case& item, std::ostream* out) {
+  *out << item.include << " in " << item.path;
+}
 
 class RoomArrowsCases : public ::testing::TestWithParam<Case> {};
 
