@@ -65,7 +65,7 @@ std::string read_text(const fs::path& path) {
   return text.str();
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return "'" + text + "'";
 }
 
@@ -87,8 +87,8 @@ struct Outcome {
 /// Runs the program in a shell in `folder`; its output goes to files beside that folder.
 Outcome run_program(const std::string& arguments, const fs::path& folder) {
   const fs::path output = folder.parent_path() / "stdout", error = folder.parent_path() / "stderr";
-  const std::string line = "cd " + quoted(folder) + " && timeout 20 " + quoted(PERFORA_PROGRAM) + " " + arguments +
-                           " > " + quoted(output) + " 2> " + quoted(error) + " < /dev/null";
+  const std::string line = "cd " + in_quotes(folder) + " && timeout 20 " + in_quotes(PERFORA_PROGRAM) + " " +
+                           arguments + " > " + in_quotes(output) + " 2> " + in_quotes(error) + " < /dev/null";
   const double before = processor_seconds();
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(error),
@@ -116,7 +116,7 @@ class BadInput : public ::testing::TestWithParam<Case> {
     const fs::path packed = other == keys.end() ? folder_ / "made/good.h5" : target;
     const std::string flags = other == keys.end() ? "" : other->second;
     const auto outcome = run_program(
-        "pack " + quoted(corpus / "good.toml") + " --quiet " + flags + " -o " + quoted(packed), folder_ / "run");
+        "pack " + in_quotes(corpus / "good.toml") + " --quiet " + flags + " -o " + in_quotes(packed), folder_ / "run");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     if (packed != target) make_broken_hdf5(packed, target);
     return target;
@@ -132,13 +132,13 @@ class BadInput : public ::testing::TestWithParam<Case> {
         word = file_of(item);
       else if (fs::path(word).extension() == ".toml")
         word = corpus / word;
-      arguments += quoted(word) + " ";
+      arguments += in_quotes(word) + " ";
     }
-    if (!named) arguments += quoted(file_of(item));
+    if (!named) arguments += in_quotes(file_of(item));
     const std::set<std::string> writers = {"pack", "evaluate", "optimize", "plot"};
     const std::string command = item.command.substr(0, item.command.find(' '));
     const std::string ending = command == "optimize" ? "" : command == "plot" ? ".png" : ".h5";
-    if (writers.count(command) > 0) arguments += " -o " + quoted(folder_ / ("run/output" + ending));
+    if (writers.count(command) > 0) arguments += " -o " + in_quotes(folder_ / ("run/output" + ending));
     return arguments;
   }
 
@@ -170,7 +170,7 @@ TEST(BadInputCorpus, GoodFilesOfTheCorpusPass) {
   const fs::path folder = pattern;
   fs::create_directories(folder / "run");
   for (const std::string name : {"good.toml", "good_study.toml"}) {
-    const auto outcome = run_program("check " + quoted(corpus / name), folder / "run");
+    const auto outcome = run_program("check " + in_quotes(corpus / name), folder / "run");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   }
   fs::remove_all(folder);
@@ -183,8 +183,8 @@ TEST(BadInputCorpus, EveryFileIsUsedAndThereAreEnough) {
   for (const auto& entry : fs::directory_iterator(corpus)) {
     const std::string name = entry.path().filename();
     const auto extension = entry.path().extension();
-    if (extension == ".toml" || extension == ".h5")
-      EXPECT_NE(text.find(name), std::string::npos) << name << " is in no case";
+    if (extension != ".toml" && extension != ".h5") continue;
+    EXPECT_NE(text.find(name), std::string::npos) << name << " is in no case";
   }
 }
 
