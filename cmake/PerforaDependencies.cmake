@@ -11,7 +11,8 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
-pkg_check_modules(nlopt REQUIRED IMPORTED_TARGET nlopt)
+# nlopt_cxx holds GN_AGS as well, which the plain library leaves out.
+pkg_search_module(nlopt REQUIRED IMPORTED_TARGET nlopt_cxx nlopt)
 
 # Headers alone, on the compiler's own path: found here so that a missing package is said by name, not by a failed include.
 foreach(pair IN ITEMS "toml++/toml.h;libtomlplusplus-dev" "Random123/philox.h;librandom123-dev" "nlopt.hpp;libnlopt-cxx-dev")

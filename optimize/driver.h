@@ -69,6 +69,7 @@ class Driver {
  public:
   explicit Driver(const Study& study) : study_(study), book_(study) {}
   Plan plan(const Answers& answers);
+  CandidateBook& book() { return book_; }
 
  private:
   struct View;  ///< one call of plan()

@@ -53,8 +53,4 @@ std::unique_ptr<Executor> make_child_executor(ChildOptions options);
 /// The evaluation that stands for a failure outside the simulation.
 Evaluation failed_evaluation(const Request& request, const std::string& reason);
 
-/// The loop of a worker: reads requests from `input` and answers on `output` (descriptors) until the input ends. Returns an exit code.
-/// A request that cannot be read ends it with 1.
-int serve_requests(int input, int output, const Evaluate& evaluate);
-
 }  // namespace perfora::optimize

@@ -1,4 +1,4 @@
-// What is here: evaluations in child processes, one line of JSON each way; the loop of such a child. What is not: what an evaluation does.
+// What is here: evaluations in child processes, one line of JSON each way. What is not: the loop of such a child (app/worker.cpp).
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -52,7 +52,6 @@ std::string signal_name(int signal) {
 
 std::string death_text(int status) {
   if (WIFSIGNALED(status)) return "the worker was ended by " + signal_name(WTERMSIG(status));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_start) return "the worker program could not be started";
   return fmt::format("the worker ended with exit code {}", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
 }
 
@@ -186,8 +185,12 @@ class ChildExecutor final : public Executor {
       ended = ::waitpid(child.pid, &status, WNOHANG) == child.pid;
       if (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    if (ended) child.pid = -1;
-    else status = reap(child);
+    if (ended)
+      child.pid = -1;
+    else
+      status = reap(child);
+    if (ended && WIFEXITED(status) && WEXITSTATUS(status) == cannot_start)
+      throw std::runtime_error(fmt::format("the worker program {} could not be started", options_.command.front()));
     ::close(child.socket);
     std::optional<Job> job = std::move(child.job);
     const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
@@ -265,49 +268,10 @@ class ChildExecutor final : public Executor {
   bool stopped_ = false;
 };
 
-bool write_all(int descriptor, const std::string& text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t n = ::write(descriptor, text.data() + written, text.size() - written);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    written += static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
 }  // namespace
 
 std::unique_ptr<Executor> make_child_executor(ChildOptions options) {
   return std::make_unique<ChildExecutor>(std::move(options));
-}
-
-int serve_requests(int input, int output, const Evaluate& evaluate) {
-  std::string received;
-  char buffer[65536];
-  while (true) {
-    const ssize_t n = ::read(input, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return 0;
-    received.append(buffer, static_cast<std::size_t>(n));
-    for (auto end = received.find('\n'); end != std::string::npos; end = received.find('\n')) {
-      const std::string line = received.substr(0, end);
-      received.erase(0, end + 1);
-      Request request;
-      try {
-        request = request_from_json(nlohmann::json::parse(line));
-      } catch (const std::exception&) {
-        return 1;
-      }
-      Evaluation evaluation;
-      try {
-        evaluation = evaluate(request);
-      } catch (const std::exception& error) {
-        evaluation = failed_evaluation(request, error.what());
-      }
-      if (!write_all(output, to_json(evaluation, true).dump() + "\n")) return 0;
-    }
-  }
 }
 
 }  // namespace perfora::optimize
