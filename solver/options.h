@@ -30,7 +30,6 @@ struct MaterialOptions {
   DamageInCompression damage_in_compression = DamageInCompression::none;
   double friction_coefficient = 0.4;          ///< mu
   double viscous_rate = 0.9;                  ///< beta of contacts
-  double bond_viscous_rate = 0.0;             ///< the same on bonds; off
   double density = 2200.0;                    ///< kg/m3 of solid discs
   ThresholdScaling threshold_scaling = ThresholdScaling::strength;
   double reference_mean_diameter = 0.5044e-3; ///< the <d> the critical stretches are stated for, m

@@ -22,6 +22,8 @@ struct Provenance {
   int results_version = 0;
 };
 
+struct Response;
+
 struct RunRequest {
   const geometry::Packing* clipped = nullptr;      ///< discs to bond (Hilbert order)
   const geometry::PerforationLayout* layout = nullptr;
@@ -35,6 +37,8 @@ struct RunRequest {
   const geometry::Packing* periodic = nullptr;     ///< unclipped packing for /packing in R.h5; may be null
   Provenance provenance;
   double wall_time_limit = 0.0;                    ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
+  /// Text for /summary of R.h5, made from the finished response (the JSON of `perfora evaluate --json`). May be empty.
+  std::function<std::string(const Response&)> summary_text;
   /// Called at history rows: fraction done and a line with strain, stress, rate. May be empty.
   std::function<void(double, const std::string&)> progress;
 };

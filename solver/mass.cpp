@@ -1,0 +1,147 @@
+// What is here: mass scaling, critical step, loading estimate.
+#include "solver/mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace perfora::solver {
+namespace {
+
+constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, model.md "Motion"
+
+struct Stiffness {
+  std::vector<double> translation;  // K_i, N/m
+  std::vector<double> rotation;     // KR_i, N m
+};
+
+Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, const BondNetwork& network, const MaterialOptions& material) {
+  Stiffness k{std::vector<double>(discs, contacts_to_come * material.normal_stiffness), std::vector<double>(discs)};
+  // Contacts turn a disc with lever R: keeps the rotation of discs without long bonds bounded.
+  for (std::size_t d = 0; d < discs; ++d)
+    k.rotation[d] = contacts_to_come * material.tangential_stiffness * clipped.radius[d] * clipped.radius[d];
+  for (std::int64_t b = 0; b < network.size(); ++b) {
+    const auto id = static_cast<std::size_t>(b);
+    const double l = network.rest_length[id];
+    for (const std::int32_t end : {network.i[id], network.j[id]}) {
+      k.translation[static_cast<std::size_t>(end)] += 0.5 * (material.normal_stiffness + material.tangential_stiffness);
+      k.rotation[static_cast<std::size_t>(end)] += 0.25 * material.tangential_stiffness * l * l;
+    }
+  }
+  return k;
+}
+
+}  // namespace
+
+MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network, const MaterialOptions& material, const DynamicsOptions& dynamics) {
+  const std::size_t n = clipped.x.size();
+  const Stiffness k = disc_stiffness(n, clipped, network, material);
+  MassProperties m;
+  m.mass.resize(n);
+  m.inertia.resize(n);
+  double total_stiffness = 0.0;
+  for (std::size_t d = 0; d < n; ++d) {
+    m.mass[d] = material.density * std::numbers::pi * clipped.radius[d] * clipped.radius[d];
+    m.inertia[d] = 0.5 * m.mass[d] * clipped.radius[d] * clipped.radius[d];
+    m.total += m.mass[d];
+    total_stiffness += k.translation[d];
+  }
+  if (dynamics.mass == MassScaling::uniform_step) {
+    for (std::size_t d = 0; d < n; ++d) {
+      m.mass[d] = m.total * k.translation[d] / total_stiffness;
+      m.inertia[d] = m.mass[d] * k.rotation[d] / k.translation[d];
+    }
+  }
+  double worst = 0.0;
+  for (std::size_t d = 0; d < n; ++d) worst = std::max(worst, k.translation[d] / m.mass[d] + k.rotation[d] / m.inertia[d]);
+  m.critical_step = 2.0 / std::sqrt(2.0 * worst * (1.0 + dynamics.cundall_damping));
+  return m;
+}
+
+double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses, const MaterialOptions& material, double cundall_damping,
+                                        int iterations) {
+  const std::size_t n = masses.mass.size();
+  std::vector<double> ux(n), uy(n), phi(n), fx(n), fy(n), torque(n);
+  for (std::size_t d = 0; d < n; ++d) {  // any start with a share in the highest mode: alternating signs
+    ux[d] = (d % 2 ? 1.0 : -1.0);
+    uy[d] = (d % 3 ? 1.0 : -1.0);
+    phi[d] = (d % 5 ? 1.0 : -1.0) * std::sqrt(masses.mass[d] / masses.inertia[d]);
+  }
+  double omega_squared = 0.0;
+  for (int step = 0; step < iterations; ++step) {
+    std::fill(fx.begin(), fx.end(), 0.0);
+    std::fill(fy.begin(), fy.end(), 0.0);
+    std::fill(torque.begin(), torque.end(), 0.0);
+    for (std::int64_t b = 0; b < network.size(); ++b) {
+      const auto id = static_cast<std::size_t>(b);
+      if (network.state[id] != BondState::intact) continue;
+      const auto i = static_cast<std::size_t>(network.i[id]), j = static_cast<std::size_t>(network.j[id]);
+      const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.rest_length[id];
+      const double dx = ux[j] - ux[i], dy = uy[j] - uy[i];
+      const double normal = material.normal_stiffness * (dx * nx + dy * ny);
+      const double shear = material.tangential_stiffness * (-dx * ny + dy * nx - 0.5 * l * (phi[i] + phi[j]));
+      const double gx = normal * nx - shear * ny, gy = normal * ny + shear * nx;
+      fx[i] -= gx;
+      fy[i] -= gy;
+      fx[j] += gx;
+      fy[j] += gy;
+      torque[i] -= 0.5 * l * shear;
+      torque[j] -= 0.5 * l * shear;
+    }
+    double numerator = 0.0, denominator = 0.0, norm = 0.0;  // Rayleigh quotient u.K u/u.M u
+    for (std::size_t d = 0; d < n; ++d) {
+      numerator += ux[d] * fx[d] + uy[d] * fy[d] + phi[d] * torque[d];
+      denominator += masses.mass[d] * (ux[d] * ux[d] + uy[d] * uy[d]) + masses.inertia[d] * phi[d] * phi[d];
+      ux[d] = fx[d] / masses.mass[d];
+      uy[d] = fy[d] / masses.mass[d];
+      phi[d] = torque[d] / masses.inertia[d];
+      norm += masses.mass[d] * (ux[d] * ux[d] + uy[d] * uy[d]) + masses.inertia[d] * phi[d] * phi[d];
+    }
+    if (!(norm > 0.0)) return std::numeric_limits<double>::infinity();
+    omega_squared = numerator / denominator;
+    const double scale = 1.0 / std::sqrt(norm);
+    for (std::size_t d = 0; d < n; ++d) {
+      ux[d] *= scale;
+      uy[d] *= scale;
+      phi[d] *= scale;
+    }
+  }
+  return 2.0 / std::sqrt(omega_squared * (1.0 + cundall_damping));
+}
+
+double threshold_factor(const MaterialOptions& material, double mean_diameter) {
+  const double ratio = mean_diameter / material.reference_mean_diameter;
+  switch (material.threshold_scaling) {
+    case ThresholdScaling::strength: return ratio;
+    case ThresholdScaling::toughness: return std::sqrt(ratio);
+    case ThresholdScaling::none: break;
+  }
+  return 1.0;
+}
+
+LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options, double width, double height,
+                                 double porosity, double mean_diameter) {
+  const MaterialOptions& material = options.material;
+  double square_lengths = 0.0, lengths = 0.0;
+  for (const double l : network.rest_length) {
+    square_lengths += l * l;
+    lengths += l;
+  }
+  const double area = width * height;
+  LoadingEstimate e;
+  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes about two more powers of it
+  // (docs/theory.md, "Loading rate": measured on square layouts).
+  constexpr double network_share = 0.85;  // of Voigt that a relaxed packing keeps
+  const double voigt = square_lengths / area * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
+  e.modulus = network_share * voigt * (1.0 - porosity) * (1.0 - porosity);
+  e.bulk_density = masses.total / area;
+  e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
+  // Walls shear off when bonds reach delta_t^0 over their mean length; with holes this is the strain of the first peak, without it is an early estimate.
+  const double mean_length = network.size() > 0 ? lengths / static_cast<double>(network.size()) : mean_diameter;
+  e.peak_strain = material.critical_shear_displacement * threshold_factor(material, mean_diameter) / mean_length;
+  e.rate = e.peak_strain * e.wave_speed / (options.loading.transits * height);
+  return e;
+}
+
+}  // namespace perfora::solver

@@ -1,0 +1,165 @@
+// What is here: integrals and crossings of a sampled curve, piecewise linear between rows.
+#include "solver/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace perfora::solver {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
+constexpr double smoothing_width = 0.005;     // model.md: the 0.5 %-smoothed stress
+constexpr double rising_share = 0.9;          // of its running maximum
+
+/// Value of y at x by linear interpolation; x inside the range.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto upper = std::upper_bound(x.begin(), x.end(), at);
+  if (upper == x.begin()) return y.front();
+  if (upper == x.end()) return y.back();
+  const auto k = static_cast<std::size_t>(upper - x.begin());
+  const double share = (at - x[k - 1]) / (x[k] - x[k - 1]);
+  return y[k - 1] + share * (y[k] - y[k - 1]);
+}
+
+/// The curve between two strains: end points interpolated.
+struct Piece {
+  std::vector<double> x, y;
+};
+Piece cut(const std::vector<double>& x, const std::vector<double>& y, double from, double to) {
+  Piece p;
+  p.x.push_back(from);
+  p.y.push_back(interpolate(x, y, from));
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (x[k] > from && x[k] < to) {
+      p.x.push_back(x[k]);
+      p.y.push_back(y[k]);
+    }
+  p.x.push_back(to);
+  p.y.push_back(interpolate(x, y, to));
+  return p;
+}
+
+double integral(const Piece& p) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < p.x.size(); ++k) sum += 0.5 * (p.y[k] + p.y[k - 1]) * (p.x[k] - p.x[k - 1]);
+  return sum;
+}
+
+/// Integral of |y| exactly for a piecewise linear y.
+double absolute_integral(const Piece& p) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < p.x.size(); ++k) {
+    const double a = p.y[k - 1], b = p.y[k], h = p.x[k] - p.x[k - 1];
+    if (a * b >= 0.0) {
+      sum += 0.5 * (std::fabs(a) + std::fabs(b)) * h;
+    } else {
+      sum += 0.5 * h * (a * a + b * b) / (std::fabs(a) + std::fabs(b));
+    }
+  }
+  return sum;
+}
+
+std::vector<double> smoothed(const std::vector<double>& x, const std::vector<double>& y, double width) {
+  std::vector<double> out(y.size());
+  std::size_t low = 0, high = 0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    while (high < y.size() && x[high] <= x[k] + 0.5 * width) sum += y[high++];
+    while (x[low] < x[k] - 0.5 * width) sum -= y[low++];
+    out[k] = sum / static_cast<double>(high - low);
+  }
+  return out;
+}
+
+/// Strain where the stress last crosses `level` upwards; NaN when it does not end above it.
+double last_upward_crossing(const std::vector<double>& strain, const std::vector<double>& stress, double level) {
+  if (stress.empty() || stress.back() < level) return nan;
+  for (std::size_t k = stress.size() - 1; k > 0; --k)
+    if (stress[k - 1] < level)
+      return strain[k - 1] + (level - stress[k - 1]) / (stress[k] - stress[k - 1]) * (strain[k] - strain[k - 1]);
+  return nan;
+}
+
+/// Strain of the largest energy efficiency: absorbed energy over (stress reached x 1), Li et al.'s definition with the running maximum of the stress.
+double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress) {
+  double absorbed = 0.0, best = -1.0, at = nan, largest = 0.0;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    if (k > 0) absorbed += 0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]);
+    largest = std::max(largest, stress[k]);
+    if (largest > 0.0 && absorbed / largest > best) {
+      best = absorbed / largest;
+      at = strain[k];
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+double energy_residual(const History& history, double from_strain) {
+  double largest_work = 0.0, worst = 0.0;
+  for (std::size_t k = 0; k < history.rows(); ++k) {
+    largest_work = std::max(largest_work, std::fabs(history.external_work[k]));
+    const double sum = history.elastic_bonds[k] + history.elastic_contacts[k] + history.kinetic[k] + history.damage[k] + history.friction[k] +
+                       history.viscous[k] + history.cundall[k];
+    if (history.strain_yy[k] >= from_strain && largest_work > 0.0)
+      worst = std::max(worst, std::fabs(history.external_work[k] - sum) / largest_work);
+  }
+  return worst;
+}
+
+double loading_modulus(const History& history, double peak_stress, double peak_strain) {
+  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, n = 0.0;
+  for (std::size_t k = 0; k < history.rows() && history.strain_yy[k] <= peak_strain; ++k) {
+    if (history.stress_yy[k] < 0.25 * peak_stress || history.stress_yy[k] > 0.75 * peak_stress) continue;
+    sx += history.strain_yy[k];
+    sy += history.stress_yy[k];
+    sxx += history.strain_yy[k] * history.strain_yy[k];
+    sxy += history.strain_yy[k] * history.stress_yy[k];
+    n += 1.0;
+  }
+  const double spread = n * sxx - sx * sx;
+  return n >= 3.0 && spread > 0.0 ? (n * sxy - sx * sy) / spread : nan;
+}
+
+void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area, Summary& summary) {
+  const auto& strain = history.strain_yy;
+  const auto& stress = history.stress_yy;
+  summary.plateau_start = plateau_start;
+  summary.plateau_end = plateau_end;
+  for (double* value : {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
+                        &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
+    *value = nan;
+  if (strain.size() < 2) return;
+
+  if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
+    double smallest = nan;
+    for (std::size_t k = 0; k < strain.size(); ++k)
+      if (strain[k] > summary.first_peak_strain && strain[k] <= 2.0 * summary.first_peak_strain + 0.01 && !(stress[k] >= smallest)) smallest = stress[k];
+    summary.stress_drop_ratio = smallest / summary.first_peak_stress;
+  }
+  const std::vector<double> smooth = smoothed(strain, stress, smoothing_width);
+  double running = 0.0;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    running = std::max(running, smooth[k]);
+    if (smooth[k] < rising_share * running) summary.only_rising_strain = strain[k];
+  }
+  summary.efficiency_strain = largest_efficiency_strain(strain, stress);
+
+  constexpr double rounding = 1e-9;  // the last row sits at the end of the window up to rounding
+  if (strain.back() < plateau_end - rounding) return;
+  const Piece window = cut(strain, stress, plateau_start, std::min(plateau_end, strain.back()));
+  const double width = plateau_end - plateau_start, total = integral(window);
+  summary.plateau_stress = total / width;
+  summary.minimum_stress_in_window = *std::min_element(window.y.begin(), window.y.end());
+  Piece deviation = window;
+  for (double& y : deviation.y) y -= summary.plateau_stress;
+  summary.undulation = total != 0.0 ? absolute_integral(deviation) / total : nan;
+  summary.energy_absorbed = interpolate(strain, history.external_work, plateau_end) / reference_area;
+  summary.densification_strain = last_upward_crossing(strain, stress, densification_factor * summary.plateau_stress);
+}
+
+}  // namespace perfora::solver

@@ -1,0 +1,344 @@
+// What is here: one compression: set-up, rows, frames, checkpoints, stopping, summary.
+#include "solver/run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <optional>
+
+#include "io/progress.h"
+#include "solver/fragments.h"
+#include "solver/measures.h"
+#include "solver/run_files.h"
+#include "solver/simulation.h"
+
+namespace perfora::solver {
+namespace {
+
+volatile std::sig_atomic_t stop_flag = 0;
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double peak_passed_share = 0.8;        // a row below this share of the peak ends the search for the first peak
+constexpr double least_peak_strain = 2e-4;       // rows before that are too close to zero stress to tell a fall
+constexpr double residual_from_strain = 0.002;   // the ledger is judged from here on (issue: after 0.2 % strain)
+constexpr double unstable_overlap = 1.0;         // overlap over <d> at which discs pass through each other: the run has failed
+constexpr std::int64_t steps_between_looks = 64; // at the clock and the stop flag
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double porosity_of(const geometry::PerforationLayout& layout) { return 1.0 - layout.solid_area_fraction(); }
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Everything that follows from the request before the first step.
+struct Setup {
+  BondNetwork network;
+  MassProperties masses;
+  LoadingEstimate loading;
+  double rate = 0.0;
+  double time_step = 0.0;
+  std::int64_t steps_per_row = 0;
+  std::int64_t rows = 0;
+};
+
+Setup prepare(const RunRequest& request) {
+  const SolverOptions& options = request.options;
+  Setup s;
+  s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed, request.mean_diameter);
+  s.masses = make_masses(*request.clipped, s.network, options.material, options.dynamics);
+  s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height, porosity_of(*request.layout),
+                               request.mean_diameter);
+  s.rate = options.loading.rate > 0.0 ? options.loading.rate : s.loading.rate;
+  // The step is shortened so that a whole number of steps makes a row: rows then sit at exact strains.
+  const double interval = options.output.history_interval;
+  const double longest = options.dynamics.step_factor * s.masses.critical_step;
+  s.steps_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / (s.rate * longest))));
+  s.time_step = interval / (s.rate * static_cast<double>(s.steps_per_row));
+  constexpr double rounding = 1e-9;
+  s.rows = static_cast<std::int64_t>(std::ceil(options.loading.until / interval - rounding));
+  return s;
+}
+
+Cell oedometric_cell(const geometry::PerforationLayout& layout, double rate) {
+  Cell cell;
+  cell.start = {layout.width, 0.0, layout.height};
+  cell.control = {CellControl::fixed, CellControl::fixed, CellControl::rate};
+  cell.velocity = {0.0, 0.0, -rate * layout.height};
+  return cell;
+}
+
+std::vector<std::int32_t> bonds_per_disc(const BondNetwork& network, std::size_t discs) {
+  std::vector<std::int32_t> count(discs, 0);
+  for (std::size_t b = 0; b < network.i.size(); ++b) {
+    ++count[static_cast<std::size_t>(network.i[b])];
+    ++count[static_cast<std::size_t>(network.j[b])];
+  }
+  return count;
+}
+
+/// Rows after which a frame is written, the first peak aside.
+bool frame_due(const OutputOptions& output, std::int64_t row, std::int64_t rows) {
+  const auto at_multiple = [&](double stride) {
+    const auto every = std::max<std::int64_t>(1, std::llround(stride / output.history_interval));
+    return row % every == 0;
+  };
+  if (!output.frame_strains.empty()) {
+    for (const double strain : output.frame_strains)
+      if (row == std::llround(strain / output.history_interval)) return true;
+    return false;
+  }
+  if (output.frames == FrameChoice::none) return false;
+  return row == rows || at_multiple(output.frames == FrameChoice::all ? 0.01 : 0.1);
+}
+
+/// One run in progress.
+class Run {
+ public:
+  explicit Run(const RunRequest& request)
+      : request_(request), setup_(prepare(request)), folder_(request.run_file), original_bonds_(bonds_per_disc(setup_.network, request.clipped->x.size())) {
+    const StrengthStatistics strength = strength_statistics(setup_.network);
+    Summary& summary = response_.summary;
+    summary.noise_mean = strength.mean;
+    summary.noise_std = strength.deviation;
+    summary.noise_min = strength.smallest;
+    summary.noise_max = strength.largest;
+    response_.discs = request.clipped->size();
+    response_.bonds = setup_.network.size();
+    response_.bonds_per_disc = response_.discs > 0 ? 2.0 * static_cast<double>(response_.bonds) / static_cast<double>(response_.discs) : 0.0;
+    summary.time_step = setup_.time_step;
+    summary.rate = setup_.rate;
+    summary.step_margin = critical_step_by_power_iteration(setup_.network, setup_.masses, request.options.material,
+                                                           request.options.dynamics.cundall_damping) / setup_.time_step;
+    SimulationInput input;
+    input.clipped = request.clipped;
+    input.network = setup_.network;
+    input.options = request.options;
+    input.masses = setup_.masses;
+    input.cell = oedometric_cell(*request.layout, setup_.rate);
+    input.time_step = setup_.time_step;
+    input.mean_diameter = request.mean_diameter;
+    input.threads = request.threads;
+    simulation_.emplace(std::move(input));
+  }
+
+  Response execute() {
+    start();
+    loop();
+    finish();
+    return std::move(response_);
+  }
+
+ private:
+  bool writes() const { return !request_.run_file.empty(); }
+
+  void start() {
+    started_ = last_checkpoint_ = Clock::now();
+    if (writes()) {
+      if (request_.resume && folder_.can_resume(request_.provenance.config_toml)) {
+        progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
+        io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
+      } else {
+        folder_.start_afresh(request_.provenance.config_toml);
+      }
+    }
+    first_step_ = simulation_->steps();
+    first_bond_steps_ = simulation_->bond_steps();
+    earlier_seconds_ = progress_.seconds;
+    if (progress_.history.rows() == 0) {
+      add_row();
+      if (wants_frames()) take_frame();
+    }
+  }
+
+  bool wants_frames() const { return writes() && (request_.options.output.frames != FrameChoice::none || !request_.options.output.frame_strains.empty()); }
+
+  void loop() {
+    while (progress_.rows < setup_.rows) {
+      simulation_->step();
+      const std::int64_t steps = simulation_->steps();
+      if (steps % setup_.steps_per_row == 0) {
+        ++progress_.rows;
+        add_row();
+        if (failed()) return;
+        after_row();
+      }
+      if (steps % steps_between_looks == 0 && look()) return;
+    }
+    response_.summary.status = RunStatus::completed;
+    response_.summary.reason = fmt::format("reached strain {:.6g}", simulation_->strain());
+  }
+
+  /// At the clock, the stop flag and the checkpoint; true: stop here.
+  bool look() {
+    const double now = seconds_since(started_);
+    const bool out_of_time = request_.wall_time_limit > 0.0 && now > request_.wall_time_limit;
+    const bool stopping = stop_requested() || out_of_time;
+    if (writes() && (stopping || seconds_since(last_checkpoint_) > request_.options.output.checkpoint_interval)) {
+      progress_.seconds = earlier_seconds_ + now;
+      write_checkpoint(folder_.checkpoint_file(), *simulation_, progress_);
+      last_checkpoint_ = Clock::now();
+    }
+    if (stopping) {
+      response_.summary.status = RunStatus::stopped;
+      response_.summary.reason = stop_requested() ? "signal" : "wall time";
+    }
+    return stopping;
+  }
+
+  void add_row() {
+    const Virial stress = simulation_->row_stress();
+    const Ledger energy = simulation_->ledger();
+    const double strain = simulation_->strain();
+    if (fragments_at_breaks_ != static_cast<std::int64_t>(simulation_->events().size())) {
+      fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
+      fragments_at_breaks_ = static_cast<std::int64_t>(simulation_->events().size());
+    }
+    History& h = progress_.history;
+    h.strain_yy.push_back(strain);
+    h.strain_yy_log.push_back(-std::log(1.0 - strain));
+    h.stress_yy.push_back(stress.yy);
+    h.stress_xx.push_back(stress.xx);
+    h.stress_xy.push_back(0.5 * (stress.xy + stress.yx));
+    h.stress_asymmetry.push_back(std::fabs(stress.xy - stress.yx));
+    h.broken_bonds.push_back(static_cast<double>(simulation_->events().size()));
+    h.fragments.push_back(fragments_.count);
+    h.contacts.push_back(static_cast<double>(simulation_->contacts()));
+    h.time.push_back(simulation_->time());
+    h.external_work.push_back(energy.external_work);
+    h.elastic_bonds.push_back(energy.elastic_bonds);
+    h.elastic_contacts.push_back(energy.elastic_contacts);
+    h.kinetic.push_back(energy.kinetic);
+    h.damage.push_back(energy.damage);
+    h.friction.push_back(energy.friction);
+    h.viscous.push_back(energy.viscous);
+    h.cundall.push_back(energy.cundall);
+    simulation_->reset_row();
+    if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
+      if (strain > least_peak_strain && stress.yy < peak_passed_share * simulation_->peak_stress()) {
+        simulation_->freeze_peak();
+        peak_just_passed_ = true;
+      } else {
+        progress_.kinetic_ratio = energy.kinetic / energy.elastic_bonds;
+      }
+    }
+  }
+
+  void after_row() {
+    if (wants_frames() && (frame_due(request_.options.output, progress_.rows, setup_.rows) ||
+                           (peak_just_passed_ && request_.options.output.frame_strains.empty())))
+      take_frame();
+    peak_just_passed_ = false;
+    if (request_.progress) {
+      const double elapsed = seconds_since(started_);
+      const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
+      request_.progress(static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
+                        fmt::format("strain {:.2f} %, stress {:.4g} kPa, {:.0f} steps/s", 100.0 * simulation_->strain(),
+                                    progress_.history.stress_yy.back() / 1e3, rate));
+    }
+  }
+
+  void take_frame() { write_frame(folder_.frame_file(progress_.frames++), *simulation_, original_bonds_); }
+
+  bool failed() {
+    const History& h = progress_.history;
+    const double overlap = simulation_->largest_overlap() / request_.mean_diameter;
+    if (std::isfinite(h.stress_yy.back()) && std::isfinite(h.kinetic.back()) && overlap < unstable_overlap) return false;
+    response_.summary.status = RunStatus::failed;
+    response_.summary.reason = fmt::format("unstable step: largest overlap {:.3g} <d> at strain {:.4f}", overlap, simulation_->strain());
+    return true;
+  }
+
+  void finish() {
+    Summary& s = response_.summary;
+    const History& h = progress_.history;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    s.steps = simulation_->steps();
+    s.final_strain = simulation_->strain();
+    s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
+    s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
+    const double area = request_.layout->width * request_.layout->height;
+    measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
+    s.cundall_share = h.external_work.back() > 0.0 ? h.cundall.back() / h.external_work.back() : nan;
+    s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
+    s.broken_in_tension = std::count_if(simulation_->events().begin(), simulation_->events().end(),
+                                        [](const BreakEvent& e) { return e.mode == BreakMode::tension; });
+    s.broken_in_shear = s.broken_bonds - s.broken_in_tension;
+    if (fragments_.label.empty()) fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
+    s.fragments = fragments_.count;
+    s.largest_fragment_fraction = fragments_.largest_fraction;
+    s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
+    s.energy_residual = energy_residual(h, residual_from_strain);
+    s.stress_asymmetry = simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
+    const double modulus = loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
+    const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
+    s.transits_before_peak = s.first_peak_strain / setup_.rate * wave_speed / request_.layout->height;
+    s.kinetic_ratio_at_peak = simulation_->peak_frozen() ? progress_.kinetic_ratio : nan;
+
+    Performance& p = response_.performance;
+    const double seconds = seconds_since(started_);
+    const double steps = static_cast<double>(s.steps - first_step_);
+    const double bond_steps = simulation_->bond_steps() - first_bond_steps_;
+    p.seconds = earlier_seconds_ + seconds;
+    p.steps_per_second = seconds > 0.0 ? steps / seconds : 0.0;
+    p.ns_per_bond_step = bond_steps > 0.0 ? 1e9 * seconds / bond_steps : nan;
+    p.threads = request_.options.dynamics.kernel == KernelChoice::reference ? 1 : request_.threads;
+    p.simd = simulation_->simd();
+    p.peak_memory = peak_memory_bytes();
+    response_.history = h;
+    if (!writes()) return;
+    const std::string summary = request_.summary_text ? request_.summary_text(response_) : std::string("{}");
+    write_run_file(request_, *simulation_, folder_, progress_, response_, summary);
+    if (s.status != RunStatus::stopped) folder_.remove();  // a stopped run can be resumed from it
+  }
+
+  const RunRequest& request_;
+  Setup setup_;
+  RunFolder folder_;
+  std::vector<std::int32_t> original_bonds_;
+  std::optional<Simulation> simulation_;
+  RunProgress progress_;
+  Response response_;
+  Fragments fragments_;
+  std::int64_t fragments_at_breaks_ = -1;
+  bool peak_just_passed_ = false;
+  Clock::time_point started_, last_checkpoint_;
+  std::int64_t first_step_ = 0;
+  double first_bond_steps_ = 0.0;
+  double earlier_seconds_ = 0.0;
+};
+
+}  // namespace
+
+void request_stop() { stop_flag = 1; }
+bool stop_requested() { return stop_flag != 0; }
+
+Response run_compression(const RunRequest& request) { return Run(request).execute(); }
+
+RunEstimate estimate_run(const RunRequest& request) {
+  const Setup setup = prepare(request);
+  RunEstimate e;
+  e.discs = request.clipped->size();
+  e.bonds = setup.network.size();
+  e.steps = setup.rows * setup.steps_per_row;
+  e.time_step = setup.time_step;
+  e.rate = setup.rate;
+  const double discs = static_cast<double>(e.discs), bonds = static_cast<double>(e.bonds), rows = static_cast<double>(setup.rows);
+  e.memory_bytes = 30e6 + bonds * (2.0 * 192.0 * 1.1 + 50.0 + 88.0) + discs * (250.0 + 12.0 * 2.0 * 40.0);
+  e.disk_bytes = bonds * 30.0 + discs * 200.0 + rows * 18.0 * 8.0;
+  constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core, docs/performance.md
+  e.seconds = static_cast<double>(e.steps) * bonds * ns_per_bond_step * 1e-9 / std::max(1, request.threads);
+  return e;
+}
+
+}  // namespace perfora::solver

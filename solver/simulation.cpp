@@ -1,0 +1,324 @@
+// What is here: the step. Order: cell, kick and drift (leapfrog form of velocity Verlet), neighbour list, forces with damage and breaks, ledger.
+#include "solver/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace perfora::solver {
+namespace {
+
+std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
+
+constexpr double skin_share = 0.35;              // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
+constexpr std::int64_t compaction_stride = 1024; // steps between looks at the share of empty slots
+constexpr double compaction_share = 0.02;        // of the intact bonds: then rows are compacted
+
+/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; [C] for the sign of the fluctuating velocity).
+inline double damped(double force, double velocity, double coefficient) {
+  const double power = force * velocity;
+  return power > 0.0 ? force - coefficient * force : (power < 0.0 ? force + coefficient * force : force);
+}
+
+/// Rotates (c, s) of a half angle by h: exact rotation by 2 atan(q) with q = tan(h/2) to O(h^7); no trigonometric call, no loss of norm.
+inline void rotate(double& c, double& s, double h) {
+  const double h2 = h * h;
+  const double q = 0.5 * h * (1.0 + h2 * (1.0 / 12.0 + h2 / 120.0));
+  const double inverse = 1.0 / (1.0 + q * q);
+  const double dc = (1.0 - q * q) * inverse, ds = 2.0 * q * inverse;
+  const double nc = c * dc - s * ds, ns = s * dc + c * ds;
+  const double norm = 1.5 - 0.5 * (nc * nc + ns * ns);  // one Newton step back to |.| = 1
+  c = nc * norm;
+  s = ns * norm;
+}
+
+/// sum V_ab (dH H^-1)_ab, the affine part of the pair work, for upper-triangular matrices.
+double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& h) {
+  const double gxx = change.xx / h.xx, gyy = change.yy / h.yy;
+  const double gxy = (change.xy - gxx * h.xy) / h.yy;
+  return v.xx * gxx + v.xy * gxy + v.yy * gyy;
+}
+
+}  // namespace
+
+void DiscState::resize(std::size_t n) {
+  sx.resize(n);
+  sy.resize(n);
+  for (auto* field : {&vx, &vy, &omega, &angle, &half_sin, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
+  half_cos.assign(n, 1.0);
+  record.resize(n);
+  record_before.resize(n);
+}
+
+BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {
+  const double factor = threshold_factor(material, mean_diameter);
+  BondLaw law;
+  law.normal_stiffness = material.normal_stiffness;
+  law.tangential_stiffness = material.tangential_stiffness;
+  law.inverse_critical_normal = 1.0 / (material.critical_normal_stretch * factor);
+  law.inverse_critical_shear = 1.0 / (material.critical_shear_displacement * factor);
+  law.twice_alpha = static_cast<int>(std::lround(2.0 * material.yield_exponent));
+  law.rupture_delay = material.rupture_delay;
+  law.damage_form = material.damage_form;
+  law.damage_in_compression = material.damage_in_compression;
+  return law;
+}
+
+ContactLaw make_contact_law(const MaterialOptions& material) {
+  return {material.normal_stiffness, material.tangential_stiffness, material.friction_coefficient, material.viscous_rate};
+}
+
+Simulation::Simulation(SimulationInput input)
+    : options_(std::move(input.options)),
+      cell_(input.cell),
+      now_(input.cell.start),
+      before_(input.cell.start),
+      time_step_(input.time_step),
+      threads_(std::max(1, input.threads)),
+      bond_law_(make_bond_law(options_.material, input.mean_diameter)),
+      contact_law_(make_contact_law(options_.material)),
+      network_(std::move(input.network)) {
+  const geometry::Packing& packing = *input.clipped;
+  const std::size_t n = packing.x.size();
+  discs_.resize(n);
+  double largest_radius = 0.0;
+  for (std::size_t d = 0; d < n; ++d) {
+    const double s_y = packing.y[d] / now_.yy;
+    const double s_x = (packing.x[d] - now_.xy * s_y) / now_.xx;
+    discs_.sx[d] = fixed_point(s_x - std::floor(s_x));
+    discs_.sy[d] = fixed_point(s_y - std::floor(s_y));
+    discs_.radius[d] = packing.radius[d];
+    largest_radius = std::max(largest_radius, packing.radius[d]);
+  }
+  discs_.mass = std::move(input.masses.mass);
+  discs_.inertia = std::move(input.masses.inertia);
+  refresh_records();
+  near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
+  near_pairs_.rebuild(discs_, now_, network_);
+  backend_ = options_.dynamics.kernel == KernelChoice::reference ? make_reference_backend(bond_law_, contact_law_)
+                                                                 : make_openmp_backend(bond_law_, contact_law_, threads_);
+  backend_->load(network_, discs_);
+  broken_.reserve(static_cast<std::size_t>(network_.size()));
+  events_.reserve(static_cast<std::size_t>(network_.size()));
+  chunk_sums_.resize((n + chunk_discs - 1) / chunk_discs);
+  progress_.intact = static_cast<double>(network_.size());
+}
+
+void Simulation::refresh_records() {
+  for (std::int32_t d = 0; d < discs_.size(); ++d)
+    discs_.record[at(d)] = {reduced(discs_.sx[at(d)]), reduced(discs_.sy[at(d)]), discs_.half_cos[at(d)], discs_.half_sin[at(d)]};
+  discs_.record_before = discs_.record;
+}
+
+void Simulation::kick_and_drift() {
+  std::swap(discs_.record, discs_.record_before);
+  const double dt = time_step_, c = options_.dynamics.cundall_damping;
+  const CellMatrix mid{0.5 * (before_.xx + now_.xx), 0.5 * (before_.xy + now_.xy), 0.5 * (before_.yy + now_.yy)};
+  const double inverse_xx = 1.0 / mid.xx, inverse_yy = 1.0 / mid.yy;
+  const auto& reference_x = near_pairs_.reference_x();
+  const auto& reference_y = near_pairs_.reference_y();
+  const auto chunks = static_cast<std::int32_t>(chunk_sums_.size());
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
+  for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
+    ChunkSums sums;
+    const std::int32_t end = std::min(discs_.size(), (chunk + 1) * chunk_discs);
+    for (std::int32_t d = chunk * chunk_discs; d < end; ++d) {
+      const std::size_t k = at(d);
+      const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
+      const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c), torque = damped(discs_.torque[k], w, c);
+      const double nvx = vx + dt * fx / discs_.mass[k], nvy = vy + dt * fy / discs_.mass[k], nw = w + dt * torque / discs_.inertia[k];
+      // Work of the damping force in this kick, exact for the kick: force times mean velocity.
+      sums.cundall -= 0.5 * dt * ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
+      discs_.vx[k] = nvx;
+      discs_.vy[k] = nvy;
+      discs_.omega[k] = nw;
+      const double step_y = nvy * dt * inverse_yy;
+      const double step_x = (nvx * dt - mid.xy * step_y) * inverse_xx;
+      discs_.sx[k] += static_cast<std::uint64_t>(static_cast<std::int64_t>(step_x * 0x1p64));
+      discs_.sy[k] += static_cast<std::uint64_t>(static_cast<std::int64_t>(step_y * 0x1p64));
+      discs_.angle[k] += nw * dt;
+      rotate(discs_.half_cos[k], discs_.half_sin[k], 0.5 * nw * dt);
+      discs_.record[k] = {reduced(discs_.sx[k]), reduced(discs_.sy[k]), discs_.half_cos[k], discs_.half_sin[k]};
+      const double ux = reduced(discs_.sx[k] - reference_x[k]), uy = reduced(discs_.sy[k] - reference_y[k]);
+      const double mx = now_.xx * ux + now_.xy * uy, my = now_.yy * uy;
+      sums.displacement = std::max(sums.displacement, mx * mx + my * my);
+    }
+    chunk_sums_[at(chunk)] = sums;
+  }
+  double displacement = 0.0;
+  for (const ChunkSums& sums : chunk_sums_) {
+    progress_.ledger.cundall += sums.cundall;
+    displacement = std::max(displacement, sums.displacement);
+  }
+  largest_displacement_ = std::sqrt(displacement);
+}
+
+void Simulation::step() {
+  before_ = now_;
+  ++progress_.steps;
+  now_ = cell_.at(time());
+  kick_and_drift();
+  if (near_pairs_.outdated(largest_displacement_, now_)) near_pairs_.rebuild(discs_, now_, network_);
+  broken_.clear();
+  ForceStep step{discs_, network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_), time_step_, broken_};
+  account(backend_->forces(step), before_);
+  if (!broken_.empty()) record_breaks();
+  compact_when_due();
+}
+
+void Simulation::account(const StepSums& sums, const CellMatrix& before) {
+  Ledger& ledger = progress_.ledger;
+  // Trapezoid of the cell's work over the step, with the virial at both ends: what the pair forces take up through the affine motion.
+  const CellMatrix change{now_.xx - before.xx, now_.xy - before.xy, now_.yy - before.yy};
+  ledger.external_work -= 0.5 * (affine_work(progress_.virial, change, before) + affine_work(sums.virial, change, now_));
+  ledger.damage += sums.damage;
+  ledger.friction += sums.friction;
+  ledger.viscous += sums.viscous;
+  progress_.virial = sums.virial;
+  const Virial s = stress();
+  progress_.row_sum.xx += s.xx;
+  progress_.row_sum.xy += s.xy;
+  progress_.row_sum.yx += s.yx;
+  progress_.row_sum.yy += s.yy;
+  progress_.row_steps += 1.0;
+  if (!peak_frozen() && s.yy > progress_.peak_stress) {
+    progress_.peak_stress = s.yy;
+    progress_.peak_strain = strain();
+  }
+  progress_.largest_overlap = std::max(progress_.largest_overlap, sums.largest_overlap);
+  progress_.largest_asymmetry = std::max(progress_.largest_asymmetry, std::fabs(s.xy - s.yx));
+  progress_.bond_steps += progress_.intact;
+}
+
+void Simulation::record_breaks() {
+  for (const std::int32_t id : broken_) {
+    const std::int32_t i = network_.i[at(id)], j = network_.j[at(id)];
+    const BondKinematics k = kinematics_of(discs_.record[at(i)], discs_.record[at(j)], now_, network_.direction_x[at(id)],
+                                           network_.direction_y[at(id)], network_.rest_length[at(id)]);
+    const auto [x, y] = position(i);
+    BreakEvent event;
+    event.time = time();
+    event.strain = strain();
+    event.bond = id;
+    event.i = i;
+    event.j = j;
+    event.x = x + 0.5 * k.nx * k.length;
+    event.y = y + 0.5 * k.ny * k.length;
+    // Mode: which term of phi is larger (model.md, "Measures").
+    const double tension = k.delta_n * bond_law_.inverse_critical_normal / network_.strength[at(id)];
+    const double shear = half_integer_power(std::fabs(k.delta_t) * bond_law_.inverse_critical_shear / network_.strength[at(id)], bond_law_.twice_alpha);
+    event.mode = tension > shear ? BreakMode::tension : BreakMode::shear;
+    const BondPoint point{k.delta_n, k.delta_t, 0.0};
+    event.energy = damageable_energy(bond_law_, point, point);
+    events_.push_back(event);
+  }
+  progress_.intact -= static_cast<double>(broken_.size());
+  progress_.broken_in_layout += static_cast<double>(broken_.size());
+}
+
+void Simulation::compact_when_due() {
+  if (progress_.steps % compaction_stride != 0 || progress_.broken_in_layout <= compaction_share * progress_.intact) return;
+  for (BondState& state : network_.state)
+    if (state == BondState::broken) state = BondState::compacted;
+  progress_.broken_in_layout = 0.0;
+  backend_->load(network_, discs_);
+}
+
+Virial Simulation::stress() const {
+  const double inverse = 1.0 / now_.area();
+  const Virial& v = progress_.virial;
+  return {v.xx * inverse, v.xy * inverse, v.yx * inverse, v.yy * inverse};
+}
+
+Virial Simulation::row_stress() const {
+  if (progress_.row_steps == 0.0) return stress();
+  const double inverse = 1.0 / progress_.row_steps;
+  const Virial& v = progress_.row_sum;
+  return {v.xx * inverse, v.xy * inverse, v.yx * inverse, v.yy * inverse};
+}
+
+void Simulation::reset_row() {
+  progress_.row_sum = {};
+  progress_.row_steps = 0.0;
+}
+
+Ledger Simulation::ledger() const {
+  Ledger ledger = progress_.ledger;
+  const double half = 0.5 * time_step_, c = options_.dynamics.cundall_damping;
+  for (std::int32_t d = 0; d < discs_.size(); ++d) {
+    const std::size_t k = at(d);
+    const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
+    const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c), torque = damped(discs_.torque[k], w, c);
+    const double nvx = vx + half * fx / discs_.mass[k], nvy = vy + half * fy / discs_.mass[k], nw = w + half * torque / discs_.inertia[k];
+    ledger.cundall -= 0.5 * half * ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
+    ledger.kinetic += 0.5 * (discs_.mass[k] * (nvx * nvx + nvy * nvy) + discs_.inertia[k] * nw * nw);
+  }
+  for (std::int64_t b = 0; b < network_.size(); ++b) {
+    const auto id = static_cast<std::size_t>(b);
+    if (network_.state[id] != BondState::intact) continue;
+    const std::size_t i = at(network_.i[id]), j = at(network_.j[id]);
+    const BondKinematics k = kinematics_of(discs_.record[i], discs_.record[j], now_, network_.direction_x[id], network_.direction_y[id],
+                                           network_.rest_length[id]);
+    const double touch = std::min(discs_.radius[i] + discs_.radius[j], network_.rest_length[id]);
+    ledger.elastic_bonds += bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
+  }
+  for (std::int32_t i = 0; i < discs_.size(); ++i)
+    for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
+      const NearSlot& slot = near_pairs_.slots()[at(k)];
+      if (slot.bonded != 0 || slot.neighbour < i) continue;
+      const BondKinematics b = kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      const double overlap = std::max(0.0, slot.touch - b.length);
+      ledger.elastic_contacts += 0.5 * (contact_law_.normal_stiffness * overlap * overlap +
+                                        contact_law_.tangential_stiffness * slot.history.shear * slot.history.shear);
+    }
+  return ledger;
+}
+
+std::int64_t Simulation::contacts() const {
+  std::int64_t count = 0;
+  for (std::int32_t i = 0; i < discs_.size(); ++i) {
+    if (near_pairs_.active(i) == 0) continue;
+    for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
+      const NearSlot& slot = near_pairs_.slots()[at(k)];
+      if (slot.bonded != 0 || slot.neighbour < i) continue;
+      const BondKinematics b = kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      if (b.length < slot.touch) ++count;
+    }
+  }
+  return count;
+}
+
+std::pair<double, double> Simulation::position(std::int32_t disc) const {
+  const double sx = static_cast<double>(discs_.sx[at(disc)] >> 11) * 0x1p-53, sy = static_cast<double>(discs_.sy[at(disc)] >> 11) * 0x1p-53;
+  double x = now_.xx * sx + now_.xy * sy;
+  const double y = now_.yy * sy;
+  x -= now_.xx * std::floor(x / now_.xx);
+  return {x, y};
+}
+
+Simulation::Snapshot Simulation::snapshot() const {
+  Snapshot s;
+  s.progress = progress_;
+  s.discs = discs_;
+  s.damage = network_.damage;
+  for (const BondState state : network_.state) s.bond_state.push_back(static_cast<std::uint8_t>(state));
+  s.near_pairs = near_pairs_.snapshot();
+  s.events = events_;
+  return s;
+}
+
+void Simulation::restore(Snapshot s) {
+  progress_ = s.progress;
+  now_ = cell_.at(time());
+  before_ = now_;  // only the next step's drift asks for it, and sets it itself
+  discs_ = std::move(s.discs);
+  network_.damage = std::move(s.damage);
+  for (std::size_t b = 0; b < s.bond_state.size(); ++b) network_.state[b] = static_cast<BondState>(s.bond_state[b]);
+  near_pairs_.restore(s.near_pairs);
+  events_.reserve(static_cast<std::size_t>(network_.size()));
+  events_.assign(s.events.begin(), s.events.end());
+  refresh_records();
+  backend_->load(network_, discs_);
+}
+
+}  // namespace perfora::solver

@@ -1,0 +1,136 @@
+// What is here: Simulation, the time loop of discs in the cell: kick, drift, forces, ledger. What is not: files, measures, stopping (run.h).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/packing.h"
+#include "solver/cell.h"
+#include "solver/kernels.h"
+#include "solver/mass.h"
+#include "solver/options.h"
+#include "solver/response.h"
+
+namespace perfora::solver {
+
+/// Energies, J per metre of depth. Work and dissipation since the start, each summed from its own force; the rest as they are now.
+struct Ledger {
+  double external_work = 0.0, damage = 0.0, friction = 0.0, viscous = 0.0, cundall = 0.0;
+  double elastic_bonds = 0.0, elastic_contacts = 0.0, kinetic = 0.0;
+  double sum() const { return damage + friction + viscous + cundall + elastic_bonds + elastic_contacts + kinetic; }
+};
+
+/// Everything a run starts from.
+struct SimulationInput {
+  const geometry::Packing* clipped = nullptr;
+  BondNetwork network;
+  SolverOptions options;
+  MassProperties masses;
+  Cell cell;
+  double time_step = 0.0;      ///< s
+  double mean_diameter = 0.0;  ///< m, sets the Verlet skin
+  int threads = 1;
+};
+
+/// State and step. One call of step() moves from t to t + dt; nothing in it allocates, throws or writes files. The same bits for any number of threads.
+class Simulation {
+ public:
+  explicit Simulation(SimulationInput input);
+
+  void step();
+
+  std::int64_t steps() const { return progress_.steps; }
+  double time() const { return static_cast<double>(progress_.steps) * time_step_; }
+  double time_step() const { return time_step_; }
+  double strain() const { return engineering_strain(cell_.start, now_); }
+  const CellMatrix& cell() const { return now_; }
+  const Cell& cell_motion() const { return cell_; }
+  /// Stress at this step: sum F_j,a r_b over the area, Pa, compression positive.
+  Virial stress() const;
+  /// Mean stress since the last call of reset_row(), Pa.
+  Virial row_stress() const;
+  void reset_row();
+  /// All energies now; the kinetic one and the last half kick's damping use the velocity at the full step.
+  Ledger ledger() const;
+  std::int64_t contacts() const;  ///< pairs that touch
+
+  /// Largest |sigma_yy| history: tracked every step until freeze_peak().
+  double peak_stress() const { return progress_.peak_stress; }
+  double peak_strain() const { return progress_.peak_strain; }
+  bool peak_frozen() const { return progress_.peak_frozen != 0.0; }
+  void freeze_peak() { progress_.peak_frozen = 1.0; }
+  double largest_overlap() const { return progress_.largest_overlap; }
+  double largest_asymmetry() const { return progress_.largest_asymmetry; }
+  double bond_steps() const { return progress_.bond_steps; }  ///< sum over steps of intact bonds
+
+  const BondNetwork& network() const { return network_; }
+  const DiscState& discs() const { return discs_; }
+  DiscState& discs() { return discs_; }  ///< for tests that set velocities and angles before the first step
+  const NearPairs& near_pairs() const { return near_pairs_; }
+  const std::vector<BreakEvent>& events() const { return events_; }
+  std::int64_t intact_bonds() const { return static_cast<std::int64_t>(progress_.intact); }
+  std::string simd() const { return backend_->simd(); }
+  /// Position of a disc in the deformed cell, m, wrapped.
+  std::pair<double, double> position(std::int32_t disc) const;
+  /// Call after changing discs() from outside.
+  void refresh_records();
+
+  /// Scalars of the run that are not in any array; plain doubles, so that a checkpoint is one dataset.
+  struct Progress {
+    std::int64_t steps = 0;
+    double intact = 0.0;
+    double broken_in_layout = 0.0;
+    Ledger ledger;  ///< work and dissipation only
+    Virial virial, row_sum;
+    double row_steps = 0.0;
+    double peak_stress = 0.0, peak_strain = 0.0, peak_frozen = 0.0;
+    double largest_overlap = 0.0, largest_asymmetry = 0.0;
+    double bond_steps = 0.0;
+  };
+
+  /// For checkpoint.cpp: everything that changes during a run.
+  struct Snapshot {
+    Progress progress;
+    DiscState discs;
+    std::vector<double> damage;
+    std::vector<std::uint8_t> bond_state;
+    NearPairs::Snapshot near_pairs;
+    std::vector<BreakEvent> events;
+  };
+  Snapshot snapshot() const;
+  /// Goes on exactly where the snapshot was taken: the same bits as the run that never stopped.
+  void restore(Snapshot snapshot);
+
+ private:
+  void kick_and_drift();
+  void account(const StepSums& sums, const CellMatrix& before);
+  void record_breaks();
+  void compact_when_due();
+
+  SolverOptions options_;
+  Cell cell_;
+  CellMatrix now_, before_;
+  double time_step_;
+  int threads_;
+  BondLaw bond_law_;
+  ContactLaw contact_law_;
+  DiscState discs_;
+  BondNetwork network_;
+  NearPairs near_pairs_;
+  std::unique_ptr<ForceBackend> backend_;
+  std::vector<std::int32_t> broken_;
+  std::vector<BreakEvent> events_;
+  struct ChunkSums {
+    double cundall = 0.0, displacement = 0.0;
+  };
+  std::vector<ChunkSums> chunk_sums_;
+  Progress progress_;
+  double largest_displacement_ = 0.0;
+};
+
+/// The law of a design's material for this disc size.
+BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter);
+ContactLaw make_contact_law(const MaterialOptions& material);
+
+}  // namespace perfora::solver
