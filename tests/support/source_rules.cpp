@@ -21,7 +21,8 @@ const std::vector<Confined>& confined_libraries() {
       {std::regex("CGAL/.*"), std::regex("geometry/[^/]+\\.cpp"), "CGAL belongs in geometry/*.cpp only"},
       {std::regex("nlopt\\.h(pp)?"), std::regex("optimize/[^/]+\\.cpp"), "NLopt belongs in one optimize/*.cpp only"},
       {std::regex("toml\\+\\+/.*|toml\\.hpp"), std::regex("io/[^/]+\\.cpp"), "toml++ belongs in one io/*.cpp only"},
-      {std::regex("H5.*|hdf5(_hl)?\\.h"), std::regex("io/hdf5\\.cpp"), "HDF5's C API belongs in io/hdf5.cpp only"},
+      {std::regex("H5.*|hdf5(_hl)?\\.h"), std::regex("io/hdf5(_[a-z]+)?\\.cpp|io/hdf5_[a-z]+\\.h"),
+       "HDF5's C API belongs in io/hdf5*.cpp only"},
   };
   return list;
 }

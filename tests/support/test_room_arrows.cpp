@@ -90,7 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"solver/x.cpp", "<CGAL/spatial_sort.h>", "CGAL belongs"}, Case{"optimize/x.cpp", "<nlopt.hpp>", ""},
         Case{"optimize/x.h", "<nlopt.hpp>", "NLopt belongs"}, Case{"app/x.cpp", "<nlopt.h>", "NLopt belongs"},
         Case{"io/x.cpp", "<toml++/toml.h>", ""}, Case{"optimize/x.cpp", "<toml++/toml.h>", "toml++ belongs"},
-        Case{"io/hdf5.cpp", "<hdf5.h>", ""}, Case{"io/x.cpp", "<hdf5.h>", "HDF5's C API belongs"},
+        Case{"io/hdf5.cpp", "<hdf5.h>", ""}, Case{"io/hdf5_common.h", "<hdf5.h>", ""},
+        Case{"io/hdf5.h", "<hdf5.h>", "HDF5's C API belongs"}, Case{"io/x.cpp", "<hdf5.h>", "HDF5's C API belongs"},
         Case{"report/x.cpp", "<H5Cpp.h>", "HDF5's C API belongs"}, Case{"tests/io/x.cpp", "<hdf5.h>", ""}));
 
 TEST(RoomArrows, OpeningCommentIsWanted) {
