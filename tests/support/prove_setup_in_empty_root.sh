@@ -20,8 +20,8 @@ if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap > /dev/null; then
 fi
 repository=$(git -C "$(dirname "${BASH_SOURCE[0]}")" rev-parse --show-toplevel)
 
-mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' 2> /dev/null | awk '$2 == "bookworm" {print $1; exit}')
-[ -n "$mirror" ] || mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Created-By: Packages' | awk '/bookworm/ {print $1; exit}')
+# shellcheck disable=SC2016  # these are apt's own placeholders
+mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' | awk '$2 == "bookworm" && !found {print $1; found = 1}')
 if [ -z "$mirror" ]; then
   echo "prove_setup: apt on this machine knows no bookworm archive" >&2
   exit 1
