@@ -1,12 +1,13 @@
-// What is here: the list of subcommands; each function adds one to the program and, when it is the one asked for, stores its exit code.
-// What is not: what they do (one file a subcommand), shared flags (common.h).
+// What is here: the list of subcommands; each function adds one to the program and, when it is the one asked for,
+// stores its exit code. What is not: what they do (one file a subcommand), shared flags (common.h).
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace perfora::app {
 
-/// A subcommand runs inside CLI11's parse, as the callback of its CLI::App; io::InputError and others pass through to main().
+/// A subcommand runs inside CLI11's parse, as the callback of its CLI::App; io::InputError and others pass through to
+/// main().
 void add_pack(CLI::App& program, int& exit_code);
 void add_evaluate(CLI::App& program, int& exit_code);
 void add_optimize(CLI::App& program, int& exit_code);

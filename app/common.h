@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ enum ExitCode : int {
   exit_input = 1,      ///< usage or input
   exit_numerical = 2,  ///< packing not reached, unstable run, ...
   exit_internal = 3,
-  exit_stopped = 75,   ///< by a signal or the wall-time limit, with a checkpoint written
+  exit_stopped = 75,  ///< by a signal or the wall-time limit, with a checkpoint written
 };
 
 /// Exit code of a run or a search that ended with `status`.
@@ -28,10 +29,10 @@ ExitCode exit_code_of(solver::RunStatus status);
 
 /// Flags that read the same in every subcommand.
 struct CommonFlags {
-  std::vector<std::string> set;                ///< "section.key=value", in order
-  std::vector<std::int64_t> seed;              ///< empty or one entry: --seed
+  std::vector<std::string> set;    ///< "section.key=value", in order
+  std::vector<std::int64_t> seed;  ///< empty or one entry: --seed
   std::vector<std::int64_t> packing_seed, noise_seed, layout_seed, search_seed;
-  int threads = 0;                             ///< 0: not given
+  int threads = 0;  ///< 0: not given
   bool json = false, quiet = false, force = false;
 
   /// --set first, then the seed flags as "seeds.seed=5", ...: what DesignFile takes.
@@ -55,22 +56,30 @@ void print_text(const std::string& text);
 const std::string& command_line();
 void set_command_line(int argc, char** argv);
 
-/// SIGINT and SIGTERM ask the running compression to write a checkpoint and stop; a second one ends the program at once.
+/// SIGINT and SIGTERM ask the running compression to write a checkpoint and stop; a second one ends the program at
+/// once.
 void install_stop_handlers();
 
-/// A callback for EvaluateOptions::progress that draws io::Progress lines until it is destroyed; silent when quiet.
+/// Draws io::Progress lines for EvaluateOptions::progress; silent when quiet. It must outlive the callbacks it gives.
 class ProgressLine {
  public:
-  ProgressLine(const std::string& title, bool quiet);
-  std::function<void(double, const std::string&)> callback();
+  ProgressLine(std::string title, bool quiet);
+  void update(double fraction, const std::string& detail);
   void finish(const std::string& detail);
+  std::function<void(double, const std::string&)> callback();
 
  private:
-  std::shared_ptr<io::Progress> progress_;
+  std::string title_;
+  bool quiet_;
+  double fraction_ = 0.0;
+  std::unique_ptr<io::Progress> progress_;
 };
 
 /// The output path: `given`, or `fallback` in the current folder, announced on standard error.
 std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback);
+/// Refuses an output that exists unless `force`, and a folder that is missing or not writable. For outputs that cannot
+/// be resumed.
+void check_new_output(const std::filesystem::path& path, bool force);
 /// "stem of the design" + suffix.
 std::string default_name(const std::filesystem::path& design, const std::string& suffix);
 /// Logs each warning of DesignFile::validate().

@@ -16,12 +16,16 @@
 namespace perfora::optimize {
 
 /// Four streams, all derived from `seed` unless set (> 0). Replicate r changes packing and noise only.
+/// A stream's seed is splitmix64(splitmix64(seed) + name of the stream), cut to 53 bits so that JSON holds it exactly;
+/// replicate 0 uses it as it is (so the seeds a result names can be given back as --packing-seed and so on), replicate
+/// r > 0 uses splitmix64(splitmix64(it) + r), cut alike.
 struct Seeds {
   std::int64_t seed = 1;
   std::int64_t packing = 0, noise = 0, layout = 0, search = 0;  ///< 0: derived from `seed`
 
   struct Effective {
     std::uint64_t packing = 0, noise = 0, layout = 0, search = 0;
+    bool operator==(const Effective&) const = default;
   };
   Effective effective(int replicate) const;
 };
@@ -40,19 +44,27 @@ void describe(io::Schema& schema, Design& design);
 /// A design with its table of keys (bound to it) and where each value came from.
 class DesignFile {
  public:
-  DesignFile();                                              ///< defaults
+  DesignFile();  ///< defaults
   explicit DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+  /// From TOML text, such as schema().to_toml() gives; `name` stands for the file in messages.
+  static DesignFile from_toml(const std::string& text, const std::string& name);
+
   Design& design() { return *design_; }
   const Design& design() const { return *design_; }
   io::Schema& schema() { return *schema_; }
   const io::Schema& schema() const { return *schema_; }
-  /// Everything that can be said without placing discs: ranges across keys, horizon against the thinnest wall, overlapping holes, too many holes.
-  /// Throws io::InputError; returns warnings (walls thinner than 2 r_H, a coarse packing and what it costs, ...).
+  /// The file it was read from; empty for defaults and text.
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Everything that can be said without placing discs: ranges across keys, horizon against the thinnest wall,
+  /// overlapping holes, too many holes. Throws io::InputError; returns warnings (walls thinner than 2 r_H, a coarse
+  /// packing and what it costs, ...). An imported packing is read.
   std::vector<std::string> validate() const;
 
  private:
   std::unique_ptr<Design> design_;
   std::unique_ptr<io::Schema> schema_;
+  std::filesystem::path path_;
 };
 
 /// Raised with every change of what an evaluation gives; part of the cache key of studies.

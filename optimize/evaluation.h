@@ -1,6 +1,6 @@
-// What is here: the one record of the project, Request -> Evaluation, the function that walks the whole way, and its JSON form (cache key,
-// journal line, message to a worker, result of the command line).
-// What is not: the search (driver.h), processes (executor.h).
+// What is here: the one record of the project, Request -> Evaluation, the function that walks the whole way, and its
+// JSON form (cache key, journal line, message to a worker, result of the command line). What is not: the search
+// (driver.h), processes (executor.h).
 #pragma once
 
 #include <filesystem>
@@ -20,9 +20,10 @@ namespace perfora::optimize {
 struct EvaluateOptions {
   int threads = 1;
   std::filesystem::path run_file;      ///< R.h5, empty: none
-  std::filesystem::path packing_file;  ///< P.h5 to take the periodic packing from (its key must agree); empty: make it or take it from memory
+  std::filesystem::path packing_file;  ///< P.h5 to take the periodic packing from (its key must agree); empty: make it
+                                       ///< or take it from memory
   bool resume = false;
-  double wall_time_limit = 0.0;        ///< s, 0: none
+  double wall_time_limit = 0.0;  ///< s, 0: none
   std::string command_line;
   std::function<void(double, const std::string&)> progress;
 };
@@ -56,23 +57,41 @@ struct Evaluation {
   solver::History curve;
 };
 
-/// Makes layout and packing (the packing is kept in memory per key and reused within this process; `packing_file` reads it from a file) and clips.
-/// Throws io::InputError; a packing that was not reached shows in periodic.quality.
+/// Makes layout and packing (the packing is kept in memory per key and reused within this process; `packing_file` reads
+/// it from a file) and clips. Throws io::InputError; a packing that was not reached shows in periodic.quality.
 PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
 
-/// The whole way Design -> PerforationLayout -> Packing -> clipped Packing -> BondNetwork -> Simulation -> Response. Throws io::InputError for bad input only.
+/// The whole way Design -> PerforationLayout -> Packing -> clipped Packing -> BondNetwork -> Simulation -> Response.
+/// Throws io::InputError for bad input only.
 Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
+
+/// An evaluation that gave nothing: status `failed`, every result not reached (a design that cannot be laid out, a
+/// worker that died).
+Evaluation failed_evaluation(const std::string& reason, int replicate, const Seeds::Effective& seeds = {});
+
+/// What r_H and the overlaps of a run are stated in: <d> of the size law, or the mean of the discs of an imported
+/// packing, m.
+double mean_diameter_of(const DesignFile& design, const geometry::Packing& periodic);
+
+/// P.h5 of a packed design (docs/formats.md), whole or not at all; `summary` is the object that `perfora pack --json`
+/// prints.
+void write_pack_file(const std::filesystem::path& path, const DesignFile& design, const PackedDesign& packed,
+                     const nlohmann::json& summary, const std::string& command_line);
 
 /// JSON forms. SI, engineering strain, null for what was not reached, never NaN.
 nlohmann::json to_json(const PackSummary& summary);
 nlohmann::json to_json(const solver::Summary& summary);
 nlohmann::json to_json(const solver::Performance& performance);
 nlohmann::json to_json(const Seeds::Effective& seeds);
+/// schema "perfora.pack/1": what `perfora pack --json` prints; status "failed" when the packing was not reached.
+nlohmann::json pack_record(const PackedDesign& packed, const Seeds::Effective& seeds,
+                           const solver::Performance& performance);
 /// schema "perfora.evaluate/1"; `with_curve` adds strain and stress arrays.
 nlohmann::json to_json(const Evaluation& evaluation, bool with_curve);
 Evaluation evaluation_from_json(const nlohmann::json& record);
 
-/// One request of a search: the resolved design as TOML text, replicate, results_version. Equal requests have equal keys.
+/// One request of a search: the resolved design as TOML text, replicate, results_version. Equal requests have equal
+/// keys.
 struct Request {
   std::string design_toml;
   int replicate = 0;
@@ -81,7 +100,10 @@ struct Request {
 };
 nlohmann::json to_json(const Request& request);
 Request request_from_json(const nlohmann::json& record);
-/// Evaluates a request (used by in-process and child-process executors alike).
+/// The request for one replicate of a design; `until` = 0: as far as the design says.
+Request make_request(const DesignFile& design, int replicate, double until = 0.0);
+/// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
+/// Evaluation with status `failed` and the reason, so that a search goes on.
 Evaluation evaluate_request(const Request& request, int threads);
 
 }  // namespace perfora::optimize

@@ -1,0 +1,142 @@
+// What is here: `perfora check`: what a design or a study would run, without placing a disc. What is not: the estimates
+// (optimize/estimate.h).
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/summary_text.h"
+#include "io/schema.h"
+#include "optimize/estimate.h"
+#ifdef PERFORA_HAS_OPTIMIZE
+#include "optimize/study.h"
+#endif
+
+namespace perfora::app {
+
+namespace {
+
+using nlohmann::json;
+
+struct CheckFlags {
+  CommonFlags common;
+  std::string file;
+};
+
+std::string line(const std::string& label, const std::string& value) {
+  return fmt::format("  {:<38} {}\n", label, value);
+}
+
+/// A warning when the machine has less memory than a run is expected to take.
+void warn_about_memory(const optimize::DesignEstimate& estimate, std::vector<std::string>& warnings) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (estimate.memory_bytes > memory)
+    warnings.push_back(fmt::format("a run takes about {}, this machine has {}: take larger discs or a smaller cell",
+                                   memory_text(estimate.memory_bytes), memory_text(memory)));
+}
+
+std::string estimate_text(const optimize::DesignEstimate& estimate, int threads) {
+  const auto count = [](std::int64_t value) { return with_thousands(static_cast<double>(value)); };
+  std::string text = "One evaluation (estimated from counts; no disc was placed)\n";
+  text += line("perforations", count(estimate.perforations));
+  text += line("porosity (share of the perforations)", fmt::format("{:.4g} %", 100.0 * estimate.porosity));
+  if (estimate.perforations > 0) text += line("thinnest wall", length_text(estimate.thinnest_wall.thickness));
+  text += line("horizon r_H", length_text(estimate.horizon_radius));
+  text += line("discs", count(estimate.discs));
+  text += line("bonds", count(estimate.bonds));
+  text += line("bonds per disc", fmt::format("{:.3g}", estimate.bonds_per_disc));
+  text += line("time step", fmt::format("{:.3g} us", 1e6 * estimate.time_step));
+  text += line("strain rate", fmt::format("{:.3g} 1/s", estimate.rate));
+  text += line("steps", count(estimate.steps));
+  text += line("memory", memory_text(estimate.memory_bytes));
+  text += line("disk", memory_text(estimate.disk_bytes));
+  text += line("time, roughly", fmt::format("{} on {} threads", duration_text(estimate.seconds), threads));
+  return text;
+}
+
+json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
+  const bool holes = estimate.perforations > 0;
+  return {{"perforations", estimate.perforations},
+          {"porosity", estimate.porosity},
+          {"thinnest_wall", holes ? json(estimate.thinnest_wall.thickness) : json(nullptr)},
+          {"thinnest_wall_pair",
+           holes ? json::array({estimate.thinnest_wall.first, estimate.thinnest_wall.second}) : json(nullptr)},
+          {"horizon_radius", estimate.horizon_radius},
+          {"discs", estimate.discs},
+          {"bonds", estimate.bonds},
+          {"bonds_per_disc", estimate.bonds_per_disc},
+          {"time_step", estimate.time_step},
+          {"rate", estimate.rate},
+          {"steps", estimate.steps},
+          {"memory", estimate.memory_bytes},
+          {"disk", estimate.disk_bytes},
+          {"seconds", estimate.seconds},
+          {"threads", threads}};
+}
+
+int report(const CheckFlags& flags, const char* kind, const json& study, const std::string& study_text,
+           const optimize::DesignFile& design, std::vector<std::string> warnings) {
+  const int threads = flags.common.thread_count();
+  const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
+  warn_about_memory(estimate, warnings);
+  if (flags.common.json) {
+    json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
+    object.update(estimate_json(estimate, threads));
+    if (!study.is_null()) object["study"] = study;
+    object["warnings"] = warnings;
+    print_json(object);
+  } else {
+    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads) + study_text);
+  }
+  log_warnings(warnings);
+  return exit_ok;
+}
+
+bool is_study(const std::filesystem::path& path) {
+  for (const io::Entry& entry : io::read_toml(path))
+    if (entry.key.starts_with("study.")) return true;
+  return false;
+}
+
+int check_design(const CheckFlags& flags) {
+  const optimize::DesignFile design(flags.file, flags.common.overrides());
+  return report(flags, "design", nullptr, "", design, design.validate());
+}
+
+int check_study_file([[maybe_unused]] const CheckFlags& flags) {
+#ifdef PERFORA_HAS_OPTIMIZE
+  const optimize::StudyEstimate study = optimize::check_study(flags.file, flags.common.overrides());
+  const double seconds = optimize::estimate_design(*study.start, flags.common.thread_count()).seconds;
+  json arms = json::array();
+  std::string text = "Study\n";
+  text += line("candidates", with_thousands(static_cast<double>(study.candidates)));
+  text += line("compressions, at most", with_thousands(static_cast<double>(study.simulations)));
+  text += line("time, roughly", duration_text(seconds * static_cast<double>(study.simulations)));
+  for (const optimize::Arm& arm : study.arms) {
+    arms.push_back({{"name", arm.name}, {"maxeval", arm.maxeval}});
+    text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));
+  }
+  const json object = {{"candidates", study.candidates},
+                       {"simulations", study.simulations},
+                       {"seconds", seconds * static_cast<double>(study.simulations)},
+                       {"arms", arms}};
+  return report(flags, "study", object, text, *study.start, study.warnings);
+#else
+  throw io::InputError({flags.file, 0, "study"}, "this program was built without the search");
+#endif
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<CheckFlags>();
+  CLI::App* command = program.add_subcommand("check", "Say what a design or study would run, without running it");
+  command->add_option("FILE", flags->file, "Design or study file (TOML)")->required();
+  add_common_flags(*command, flags->common);
+  command->callback([flags, &exit_code] {
+    flags->common.apply();
+    exit_code = is_study(flags->file) ? check_study_file(*flags) : check_design(*flags);
+  });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,179 @@
+// What is here: see common.h. What is not: the work of any subcommand.
+#include "app/common.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "io/error.h"
+#include "io/journal.h"
+#include "solver/run.h"
+
+namespace perfora::app {
+
+namespace {
+
+std::string command_line_text;  // NOLINT: written once by main()
+
+extern "C" void ask_to_stop(int) {
+  solver::request_stop();
+}
+
+/// Whole numbers from 0 (derive from --seed) to 2^53 - 1 (exact in JSON).
+CLI::Validator seed_range() {
+  return CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1).description("");
+}
+constexpr int most_threads = 4096;
+
+/// The argument as a shell would need it.
+std::string quoted(const std::string& argument) {
+  if (!argument.empty() && argument.find_first_of(" \t\n\"'\\$&|;<>()*?[]{}#~`!") == std::string::npos) return argument;
+  std::string result = "'";
+  for (const char c : argument) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+void add_seed(std::vector<std::string>& overrides, const char* key, const std::vector<std::int64_t>& value) {
+  if (!value.empty()) overrides.push_back(fmt::format("seeds.{}={}", key, value.back()));
+}
+
+/// NaN and infinity as null, everywhere in `object`.
+nlohmann::json finite(const nlohmann::json& object) {
+  nlohmann::json result = object;
+  if (result.is_number_float() && !std::isfinite(result.get<double>())) return nullptr;
+  if (result.is_structured())
+    for (auto& value : result) value = finite(value);
+  return result;
+}
+
+}  // namespace
+
+ExitCode exit_code_of(solver::RunStatus status) {
+  switch (status) {
+    case solver::RunStatus::completed:
+      return exit_ok;
+    case solver::RunStatus::stopped:
+      return exit_stopped;
+    case solver::RunStatus::failed:
+      return exit_numerical;
+  }
+  return exit_internal;
+}
+
+std::vector<std::string> CommonFlags::overrides() const {
+  std::vector<std::string> result = set;
+  add_seed(result, "seed", seed);
+  add_seed(result, "packing", packing_seed);
+  add_seed(result, "noise", noise_seed);
+  add_seed(result, "layout", layout_seed);
+  add_seed(result, "search", search_seed);
+  return result;
+}
+
+int CommonFlags::thread_count(int otherwise) const {
+  const int wanted = threads > 0 ? threads : otherwise;
+  if (wanted > 0) return wanted;
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cores > 0 ? static_cast<int>(cores) : 1;
+}
+
+void CommonFlags::apply() const {
+  io::set_verbosity(quiet ? io::Verbosity::quiet : io::Verbosity::normal);
+}
+
+void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
+  const std::string design_group = uses == Uses::design ? "Design" : "";  // "": accepted but not listed
+  const std::string output_group = "Everywhere";
+  command.add_option("--set", flags.set, "Set one key of the design: section.key=value (repeatable)")
+      ->group(design_group)
+      ->allow_extra_args(false);
+  auto add_seed_flag = [&](const std::string& name, std::vector<std::int64_t>& value, const std::string& help) {
+    command.add_option(name, value, help)->group(design_group)->expected(1)->check(seed_range())->type_name("N");
+  };
+  add_seed_flag("--seed", flags.seed, "The number all random streams are derived from (default 1)");
+  add_seed_flag("--packing-seed", flags.packing_seed, "Seed of the disc packing alone (0: from --seed)");
+  add_seed_flag("--noise-seed", flags.noise_seed, "Seed of the strength field alone (0: from --seed)");
+  add_seed_flag("--layout-seed", flags.layout_seed, "Seed of random layouts and jitter alone (0: from --seed)");
+  add_seed_flag("--search-seed", flags.search_seed, "Seed of the search alone (0: from --seed)");
+  command.add_option("--threads", flags.threads, "Number of threads (default: all cores)")
+      ->group(design_group)
+      ->check(CLI::Range(1, most_threads).description(""))
+      ->type_name("N");
+  command.add_flag("--json", flags.json, "Print one JSON object on standard output, everything else on standard error")
+      ->group(output_group);
+  command.add_flag("--quiet", flags.quiet, "No log and no progress, only warnings, errors and the result")
+      ->group(output_group);
+  command.add_flag("--force", flags.force, "Replace an output that exists")->group(output_group);
+}
+
+void print_json(const nlohmann::json& object) {
+  print_text(finite(object).dump(2) + "\n");
+}
+
+void print_text(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+const std::string& command_line() {
+  return command_line_text;
+}
+
+void set_command_line(int argc, char** argv) {
+  command_line_text = "perfora";
+  for (int k = 1; k < argc; ++k) command_line_text += " " + quoted(argv[k]);
+}
+
+void install_stop_handlers() {
+  struct sigaction action = {};
+  action.sa_handler = ask_to_stop;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESETHAND | SA_RESTART;  // the second signal meets the default action
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+ProgressLine::ProgressLine(std::string title, bool quiet) : title_(std::move(title)), quiet_(quiet) {}
+
+void ProgressLine::update(double fraction, const std::string& detail) {
+  if (quiet_) return;
+  // A fraction that falls belongs to the next piece of work (packing, then compression): its time left starts anew.
+  if (!progress_ || fraction < fraction_) progress_ = std::make_unique<io::Progress>(title_);
+  fraction_ = fraction;
+  progress_->update(fraction, detail);
+}
+
+void ProgressLine::finish(const std::string& detail) {
+  if (progress_) progress_->finish(detail);
+  progress_.reset();
+}
+
+std::function<void(double, const std::string&)> ProgressLine::callback() {
+  return [this](double fraction, const std::string& detail) { update(fraction, detail); };
+}
+
+std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback) {
+  if (!given.empty()) return given;
+  io::log_info(fmt::format("no -o given: the result goes to {}", fallback));
+  return fallback;
+}
+
+void check_new_output(const std::filesystem::path& path, bool force) {
+  if (!force && std::filesystem::exists(path))
+    throw io::InputError({path.string(), 0, ""}, "already exists", "",
+                         "--force replaces it, or name another output with -o");
+  io::check_output(path, force, false);
+}
+
+std::string default_name(const std::filesystem::path& design, const std::string& suffix) {
+  return design.stem().string() + suffix;
+}
+
+void log_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) io::log_warning(warning);
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,136 @@
+// What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), or an ensemble of replicates in a
+// folder. What is not: the evaluation (optimize/evaluation.h), statistics (optimize/ensemble.h).
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/outputs.h"
+#include "app/summary_text.h"
+#include "io/error.h"
+#include "optimize/ensemble.h"
+#include "optimize/evaluation.h"
+
+namespace perfora::app {
+
+namespace {
+
+struct EvaluateFlags {
+  CommonFlags common;
+  std::string design, output, packing;
+  std::string until;
+  bool resume = false;
+  int replicates = 0;
+  double wall_time = 0.0;
+};
+
+constexpr int most_replicates = 1000;
+
+optimize::DesignFile read_design(const EvaluateFlags& flags) {
+  std::vector<std::string> overrides = flags.common.overrides();
+  if (!flags.until.empty()) overrides.push_back("loading.until=" + flags.until);
+  optimize::DesignFile design(flags.design, overrides);
+  log_warnings(design.validate());
+  return design;
+}
+
+optimize::EvaluateOptions evaluate_options(const EvaluateFlags& flags, ProgressLine& progress) {
+  optimize::EvaluateOptions options;
+  options.threads = flags.common.thread_count();
+  options.packing_file = flags.packing;
+  options.resume = flags.resume;
+  options.wall_time_limit = flags.wall_time;
+  options.command_line = command_line();
+  options.progress = progress.callback();
+  return options;
+}
+
+/// What is said at the end on standard error.
+void say_how_it_ended(solver::RunStatus status, const std::string& reason, const std::string& where,
+                      const std::string& again) {
+  if (status == solver::RunStatus::completed) io::log_info("written: " + where);
+  if (status == solver::RunStatus::stopped)
+    io::log_warning(fmt::format("stopped ({}); the state is kept in {}; go on with {}", reason, where, again));
+  if (status == solver::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
+}
+
+int evaluate_one(const EvaluateFlags& flags) {
+  const optimize::DesignFile design = read_design(flags);
+  const auto output = output_or_default(flags.output, default_name(flags.design, ".h5"));
+  check_run_output(output, flags.common.force, flags.resume);
+  ProgressLine progress("compression", flags.common.quiet);
+  optimize::EvaluateOptions options = evaluate_options(flags, progress);
+  options.run_file = output;
+  const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
+  progress.finish(fmt::format("{}, {}", evaluation.reason, duration_text(evaluation.performance.seconds)));
+  if (std::filesystem::exists(output)) write_beside(output);
+  const auto record = optimize::to_json(evaluation, false);
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record));
+  say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "--resume");
+  return exit_code_of(evaluation.status);
+}
+
+int evaluate_replicates(const EvaluateFlags& flags) {
+  const optimize::DesignFile design = read_design(flags);
+  optimize::EnsembleOptions options;
+  ProgressLine progress("ensemble", flags.common.quiet);
+  options.evaluate = evaluate_options(flags, progress);
+  options.folder = output_or_default(flags.output, default_name(flags.design, "-ensemble"));
+  options.replicates = flags.replicates;
+  options.resume = flags.resume;
+  options.force = flags.common.force;
+  options.finished = [&](const optimize::Evaluation& evaluation, const std::filesystem::path& run_file, bool kept) {
+    progress.finish("");
+    if (!kept && std::filesystem::exists(run_file)) write_beside(run_file);
+    io::log_info(fmt::format("replicate {} of {}{}: first peak {}, plateau {}", evaluation.replicate + 1,
+                             flags.replicates, kept ? " (was finished)" : "",
+                             stress_text(evaluation.summary.first_peak_stress),
+                             stress_text(evaluation.summary.plateau_stress)));
+  };
+  const optimize::Ensemble ensemble = optimize::evaluate_ensemble(design, options);
+  const auto record = optimize::to_json(ensemble);
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record));
+  say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "--resume");
+  return exit_code_of(ensemble.status);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<EvaluateFlags>();
+  CLI::App* command = program.add_subcommand("evaluate", "Compress one design, or several replicates of it");
+  command->add_option("DESIGN", flags->design, "Design file (TOML)")->required();
+  command
+      ->add_option("-o,--output", flags->output,
+                   "Run file to write (default: DESIGN's name + .h5); with --replicates a folder")
+      ->type_name("R.h5|DIR");
+  command->add_option("--packing", flags->packing, "Take the packing from this file of `perfora pack`")
+      ->type_name("P.h5");
+  command->add_option("--until", flags->until, "Engineering strain to run to, as 0.6 or \"60 %\" (loading.until)")
+      ->type_name("STRAIN");
+  command->add_flag("--resume", flags->resume, "Go on with a run or an ensemble that was stopped or killed");
+  command
+      ->add_option("--replicates", flags->replicates,
+                   "Evaluate N replicates: other packings and strength fields of the same design")
+      ->check(CLI::Range(1, most_replicates).description(""))
+      ->type_name("N");
+  command
+      ->add_option("--wall-time", flags->wall_time,
+                   "Stop with a checkpoint after this many seconds (of each replicate)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  add_common_flags(*command, flags->common);
+  command->callback([flags, &exit_code] {
+    flags->common.apply();
+    if (flags->resume && flags->common.force)
+      throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+    exit_code = flags->replicates > 0 ? evaluate_replicates(*flags) : evaluate_one(*flags);
+  });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,60 @@
+// What is here: the program perfora: its subcommands put together, and exceptions turned into one sentence and an exit
+// code. What is not: any work (one file a subcommand).
+#include <exception>
+#include <new>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/usage_error.h"
+#include "io/error.h"
+#include "io/provenance.h"
+
+namespace {
+
+using namespace perfora;
+
+int run(int argc, char** argv) {
+  app::set_command_line(argc, argv);
+  app::install_stop_handlers();
+  int exit_code = app::exit_ok;
+  CLI::App program("Designs perforated concrete blocks that crush at a wanted stress.", "perfora");
+  program.set_version_flag("--version", "perfora " + io::program_version() + " (" + io::git_revision() + ")");
+  program.require_subcommand(1);
+  program.footer(
+      "perfora SUBCOMMAND --help says more. Exit codes: 0 done, 1 usage or input, 2 numerical failure, 3 internal "
+      "error,\n"
+      "75 stopped by a signal or a time limit with a checkpoint written (go on with --resume).");
+  app::add_pack(program, exit_code);
+  app::add_evaluate(program, exit_code);
+#ifdef PERFORA_HAS_OPTIMIZE
+  app::add_optimize(program, exit_code);
+#endif
+  app::add_check(program, exit_code);
+  app::add_show(program, exit_code);
+#ifdef PERFORA_HAS_REPORT
+  app::add_plot(program, exit_code);
+#endif
+  app::add_worker(program, exit_code);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app::report_usage_error(program, error);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const perfora::io::InputError& error) {
+    perfora::io::log_error(error.what());
+    return perfora::app::exit_input;
+  } catch (const std::bad_alloc&) {
+    perfora::io::log_error("out of memory; `perfora check` says how much a design needs");
+  } catch (const std::exception& error) {
+    perfora::io::log_error(error.what());
+  }
+  return perfora::app::exit_internal;
+}

@@ -1,0 +1,78 @@
+// What is here: `perfora pack`: design -> P.h5. What is not: how packings are made (geometry).
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/summary_text.h"
+#include "optimize/evaluation.h"
+
+namespace perfora::app {
+
+namespace {
+
+struct PackFlags {
+  CommonFlags common;
+  std::string design;
+  std::string output;
+};
+
+/// Largest memory of this process so far, bytes.
+double peak_memory() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+int pack(const PackFlags& flags) {
+  flags.common.apply();
+  const optimize::DesignFile design(flags.design, flags.common.overrides());
+  log_warnings(design.validate());
+  const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));
+  check_new_output(output, flags.common.force);
+
+  const auto start = std::chrono::steady_clock::now();
+  ProgressLine progress("packing", flags.common.quiet);
+  optimize::EvaluateOptions options;
+  options.threads = flags.common.thread_count();
+  options.command_line = command_line();
+  options.progress = progress.callback();
+  const optimize::PackedDesign packed = optimize::pack_design(design, options, 0);
+  solver::Performance performance;
+  performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  performance.threads = options.threads;
+  performance.peak_memory = peak_memory();
+  progress.finish(fmt::format("{} discs in {}", with_thousands(static_cast<double>(packed.summary.discs)),
+                              duration_text(performance.seconds)));
+
+  const auto record = optimize::pack_record(packed, design.design().seeds.effective(0), performance);
+  const bool reached = packed.periodic.quality.reached;
+  if (reached) optimize::write_pack_file(output, design, packed, record, command_line());
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record));
+  if (!reached) {
+    io::log_error("the packing was not reached, nothing was written: " + packed.periodic.quality.reason);
+    return exit_numerical;
+  }
+  io::log_info("written: " + output.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_pack(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<PackFlags>();
+  CLI::App* command =
+      program.add_subcommand("pack", "Make the disc packing of a design and clip it by the perforations");
+  command->add_option("DESIGN", flags->design, "Design file (TOML)")->required();
+  command->add_option("-o,--output", flags->output, "Packing file to write (default: DESIGN's name + -packing.h5)")
+      ->type_name("P.h5");
+  add_common_flags(*command, flags->common);
+  command->callback([flags, &exit_code] { exit_code = pack(*flags); });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,45 @@
+// What is here: `perfora plot`: R.h5 or P.h5 -> picture. What is not: drawing (report).
+#include "report/plot.h"
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "io/hdf5.h"
+
+namespace perfora::app {
+
+namespace {
+
+struct PlotFlags {
+  CommonFlags common;
+  std::string input;
+  std::string output;
+};
+
+int plot(const PlotFlags& flags) {
+  flags.common.apply();
+  const std::filesystem::path input = flags.input;
+  const std::string format = io::Hdf5Reader(input).attribute_text("/", "format");
+  const auto output = output_or_default(flags.output, default_name(input, ".png"));
+  check_new_output(output, flags.common.force);
+  if (format.starts_with("perfora.pack/"))
+    report::plot_packing(input, output);
+  else
+    report::plot_run(input, output);
+  if (flags.common.json)
+    print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});
+  io::log_info("written: " + output.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<PlotFlags>();
+  CLI::App* command = program.add_subcommand("plot", "Draw the curve and the block of a run, or a packing");
+  command->add_option("FILE", flags->input, "Run file R.h5 or packing file P.h5")->required();
+  command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: FILE's name + .png)");
+  add_common_flags(*command, flags->common, Uses::files_only);
+  command->callback([flags, &exit_code] { exit_code = plot(*flags); });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,244 @@
+// What is here: see summary_text.h; one table of labels, keys and units a schema.
+#include "app/summary_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace perfora::app {
+
+namespace {
+
+using nlohmann::json;
+
+enum class Unit { number, count, stress, length, time, percent, energy_density };
+
+struct Line {
+  const char* label;
+  const char* key;
+  Unit unit;
+};
+
+constexpr Line pack_lines[] = {
+    {"discs", "discs", Unit::count},
+    {"perforations", "perforations", Unit::count},
+    {"mean diameter", "mean_diameter", Unit::length},
+    {"solid fraction of the packing", "solid_fraction", Unit::percent},
+    {"porosity (share of the perforations)", "porosity", Unit::percent},
+    {"bonds per disc", "bonds_per_disc", Unit::number},
+    {"thinnest wall", "thinnest_wall", Unit::length},
+    {"thinnest wall between the discs", "thinnest_wall_discretised", Unit::length},
+    {"largest overlap / smaller diameter", "max_overlap_ratio", Unit::number},
+    {"coordination number", "coordination_number", Unit::number},
+    {"rattlers", "rattler_fraction", Unit::percent},
+};
+
+constexpr Line curve_lines[] = {
+    {"first peak stress", "first_peak_stress", Unit::stress},
+    {"first peak strain", "first_peak_strain", Unit::percent},
+    {"smallest stress after it / peak", "stress_drop_ratio", Unit::percent},
+    {"plateau stress", "plateau_stress", Unit::stress},
+    {"smallest stress in the window", "minimum_stress_in_window", Unit::stress},
+    {"undulation", "undulation", Unit::percent},
+    {"densification strain", "densification_strain", Unit::percent},
+    {"strain of largest efficiency", "efficiency_strain", Unit::percent},
+    {"stress only rises from strain", "only_rising_strain", Unit::percent},
+    {"energy absorbed to window end", "energy_absorbed", Unit::energy_density},
+    {"share of Cundall damping in the work", "cundall_share", Unit::percent},
+};
+
+constexpr Line damage_lines[] = {
+    {"broken bonds", "broken_bonds", Unit::count},
+    {"  in tension", "broken_in_tension", Unit::count},
+    {"  in shear", "broken_in_shear", Unit::count},
+    {"fragments", "fragments", Unit::count},
+    {"largest fragment (of the solid)", "largest_fragment_fraction", Unit::percent},
+};
+
+constexpr Line run_lines[] = {
+    {"strain reached", "final_strain", Unit::percent},
+    {"steps", "steps", Unit::count},
+    {"time step", "time_step", Unit::time},
+    {"strain rate (1/s)", "rate", Unit::number},
+    {"energy residual", "energy_residual", Unit::percent},
+    {"largest overlap / mean diameter", "max_overlap_in_run", Unit::percent},
+    {"wave transits before the peak", "transits_before_peak", Unit::number},
+    {"kinetic / elastic energy at the peak", "kinetic_ratio_at_peak", Unit::percent},
+    {"critical step / step", "step_margin", Unit::number},
+};
+
+constexpr Line optimize_lines[] = {
+    {"score", "score", Unit::number},
+    {"target", "target", Unit::stress},
+    {"evaluations", "evaluations", Unit::count},
+    {"stopped because", "stop_reason", Unit::number},
+};
+
+constexpr int label_width = 38;
+
+std::string value_text(double value, Unit unit) {
+  switch (unit) {
+    case Unit::number:
+      return fmt::format("{:.4g}", value);
+    case Unit::count:
+      return with_thousands(value);
+    case Unit::stress:
+      return stress_text(value);
+    case Unit::length:
+      return length_text(value);
+    case Unit::time:
+      return fmt::format("{:.4g} us", 1e6 * value);
+    case Unit::percent:
+      return fmt::format("{:.4g} %", 100.0 * value);
+    case Unit::energy_density:
+      return fmt::format("{:.4g} kJ/m3", 1e-3 * value);
+  }
+  return {};
+}
+
+std::string line_text(const std::string& label, const std::string& value) {
+  return fmt::format("  {:<{}} {}\n", label, label_width, value);
+}
+
+std::string lines_text(const char* title, const json& object, std::span<const Line> lines) {
+  std::string text;
+  for (const Line& line : lines) {
+    const auto found = object.find(line.key);
+    if (found == object.end()) continue;
+    std::string value = "not reached";
+    if (found->is_number()) value = value_text(found->get<double>(), line.unit);
+    if (found->is_string()) value = found->get<std::string>();
+    text += line_text(line.label, value);
+  }
+  return text.empty() ? text : std::string(title) + "\n" + text;
+}
+
+std::string head_text(const json& object) {
+  std::string text = fmt::format("{}: {}\n", object.value("status", "?"), object.value("reason", ""));
+  if (const auto seeds = object.find("seeds"); seeds != object.end() && seeds->is_object()) {
+    std::string list;
+    for (const auto& [name, value] : seeds->items())
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", name, value.dump());
+    text += line_text("seeds", list);
+  }
+  return text;
+}
+
+std::string wall_pair_text(const json& object) {
+  const auto pair = object.find("thinnest_wall_pair");
+  if (pair == object.end() || !pair->is_array() || pair->size() != 2) return {};
+  return line_text("  between perforations",
+                   fmt::format("{} and {} (counted from 0)", pair->at(0).dump(), pair->at(1).dump()));
+}
+
+std::string performance_text(const json& object) {
+  const auto found = object.find("performance");
+  if (found == object.end()) return {};
+  auto number = [&](const char* key) {
+    return found->contains(key) && found->at(key).is_number() ? found->at(key).get<double>() : NAN;
+  };
+  std::string text = "Performance\n";
+  text +=
+      line_text("time", fmt::format("{} on {} threads", duration_text(number("seconds")), found->value("threads", 1)));
+  if (std::isfinite(number("steps_per_second")))
+    text += line_text("steps per second", fmt::format("{:.4g}", number("steps_per_second")));
+  if (std::isfinite(number("ns_per_bond_step")))
+    text += line_text("ns per bond and step", fmt::format("{:.3g}", number("ns_per_bond_step")));
+  if (std::isfinite(number("peak_memory"))) text += line_text("largest memory", memory_text(number("peak_memory")));
+  return text;
+}
+
+std::string plateau_window_text(const json& object) {
+  const auto window = object.find("plateau_window");
+  if (window == object.end() || !window->is_array() || window->size() != 2 || !window->at(0).is_number()) return {};
+  return line_text("plateau window", fmt::format("{:.4g} to {:.4g} % strain", 100.0 * window->at(0).get<double>(),
+                                                 100.0 * window->at(1).get<double>()));
+}
+
+Unit unit_of(const std::string& key) {
+  for (const auto lines : {std::span<const Line>(curve_lines), std::span<const Line>(damage_lines)})
+    for (const Line& line : lines)
+      if (key == line.key) return line.unit;
+  return Unit::number;
+}
+
+std::string statistics_text(const json& statistics) {
+  std::string text = fmt::format("  {:<26} {:>14} {:>14} {:>14} {:>14} {:>14} {:>5}\n", "over the replicates", "mean",
+                                 "+- (95 %)", "deviation", "smallest", "largest", "n");
+  for (const auto& [name, entry] : statistics.items()) {
+    auto value = [&](const char* key) {
+      return entry.at(key).is_number() ? value_text(entry.at(key).get<double>(), unit_of(name)) : std::string("-");
+    };
+    text +=
+        fmt::format("  {:<26} {:>14} {:>14} {:>14} {:>14} {:>14} {:>5}\n", name, value("mean"), value("confidence_95"),
+                    value("standard_deviation"), value("minimum"), value("maximum"), entry.at("count").get<int>());
+  }
+  return text;
+}
+
+std::string optimize_text(const json& object) {
+  std::string text = lines_text("Search", object, optimize_lines);
+  if (const auto best = object.find("best"); best != object.end() && best->is_object()) {
+    text += "Best design\n";
+    for (const auto& [key, value] : best->items())
+      text += line_text(key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string with_thousands(double count) {
+  if (!std::isfinite(count)) return "?";
+  std::string digits = fmt::format("{:.0f}", std::abs(count));
+  for (auto k = static_cast<std::ptrdiff_t>(digits.size()) - 3; k > 0; k -= 3)
+    digits.insert(static_cast<std::size_t>(k), ",");
+  return count < 0.0 ? "-" + digits : digits;
+}
+
+std::string stress_text(double pascal) {
+  const double size = std::abs(pascal);
+  if (size >= 1e9) return fmt::format("{:.4g} GPa", 1e-9 * pascal);
+  if (size >= 1e6) return fmt::format("{:.4g} MPa", 1e-6 * pascal);
+  if (size >= 1e3) return fmt::format("{:.4g} kPa", 1e-3 * pascal);
+  return fmt::format("{:.4g} Pa", pascal);
+}
+
+std::string length_text(double metres) {
+  const double size = std::abs(metres);
+  if (size >= 1.0) return fmt::format("{:.4g} m", metres);
+  if (size >= 1e-4 || size == 0.0) return fmt::format("{:.4g} mm", 1e3 * metres);
+  return fmt::format("{:.4g} um", 1e6 * metres);
+}
+
+std::string memory_text(double bytes) {
+  if (bytes >= 1e9) return fmt::format("{:.3g} GB", 1e-9 * bytes);
+  if (bytes >= 1e6) return fmt::format("{:.3g} MB", 1e-6 * bytes);
+  return fmt::format("{:.3g} kB", 1e-3 * bytes);
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  if (whole < 86400) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  return fmt::format("{} d {} h", whole / 86400, whole % 86400 / 3600);
+}
+
+std::string summary_text(const json& object) {
+  const std::string schema = object.value("schema", "");
+  std::string text = head_text(object);
+  if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
+  if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
+  text += lines_text("Packing", object, pack_lines) + wall_pair_text(object);
+  text += lines_text("Curve", object, curve_lines) + plateau_window_text(object);
+  text += lines_text("Breakage at the end", object, damage_lines);
+  text += lines_text("Run", object, run_lines);
+  return text + performance_text(object);
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,41 @@
+// What is here: the hidden subcommand `worker`: one Request (JSON) a line on standard input, one Evaluation (JSON, with
+// its curve) a line on standard output, until standard input ends. What is not: who starts workers
+// (optimize/executor.h).
+#include <iostream>
+#include <string>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "optimize/evaluation.h"
+
+namespace perfora::app {
+
+namespace {
+
+int work(int threads) {
+  std::string line;
+  while (std::getline(std::cin, line)) {
+    if (line.empty()) continue;
+    const optimize::Request request = optimize::request_from_json(nlohmann::json::parse(line));
+    const optimize::Evaluation evaluation = optimize::evaluate_request(request, threads);
+    print_text(optimize::to_json(evaluation, true).dump() + "\n");
+    // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
+    // exit code.
+    if (evaluation.status == solver::RunStatus::stopped) return exit_stopped;
+  }
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_worker(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<CommonFlags>();
+  CLI::App* command = program.add_subcommand("worker", "Evaluate requests from standard input")->group("");
+  add_common_flags(*command, *flags, Uses::files_only);
+  command->callback([flags, &exit_code] {
+    flags->apply();
+    exit_code = work(flags->thread_count(1));
+  });
+}
+
+}  // namespace perfora::app

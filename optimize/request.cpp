@@ -1,0 +1,44 @@
+// What is here: the request of one evaluation, its key and its JSON form. What is not: who carries requests
+// (executor.h).
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid.hpp>
+#include <boost/uuid/uuid_io.hpp>
+
+#include "optimize/evaluation.h"
+
+namespace perfora::optimize {
+
+std::string Request::key() const {
+  // SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
+  nlohmann::json identity = to_json(*this);
+  identity["results_version"] = results_version;
+  const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
+  return boost::uuids::to_string(generator(identity.dump()));
+}
+
+nlohmann::json to_json(const Request& request) {
+  return {{"design", request.design_toml}, {"replicate", request.replicate}, {"until", request.until}};
+}
+
+Request request_from_json(const nlohmann::json& record) {
+  return {record.at("design").get<std::string>(), record.at("replicate").get<int>(), record.at("until").get<double>()};
+}
+
+Request make_request(const DesignFile& design, int replicate, double until) {
+  return {design.schema().to_toml(), replicate, until};
+}
+
+Evaluation evaluate_request(const Request& request, int threads) {
+  try {
+    DesignFile design = DesignFile::from_toml(request.design_toml, "request");
+    if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
+    static_cast<void>(design.validate());
+    EvaluateOptions options;
+    options.threads = threads;
+    return evaluate_design(design, options, request.replicate);
+  } catch (const io::InputError& error) {
+    return failed_evaluation(error.what(), request.replicate);
+  }
+}
+
+}  // namespace perfora::optimize
