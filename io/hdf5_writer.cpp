@@ -142,9 +142,10 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 
 void Hdf5Writer::copy_from(const std::filesystem::path& other, const std::string& name, const std::string& target) {
   const auto lock = hdf5_lock();
-  const Hdf5Reader checked(other);  // says what is wrong with the other file
-  if (!checked.has(name)) throw InputError({other.string(), 0, ""}, "has no " + name, "", "write the file again");
-  const Hdf5Handle source(H5Fopen(other.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  // The reader says what is wrong with the other file.
+  if (!Hdf5Reader(other).has(name))
+    throw InputError({other.string(), 0, ""}, "has no " + name, "", "write the file again");
+  const Hdf5Handle source(H5Fopen(other.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
   const Hdf5Handle link = make_groups_on_the_way();
   check(H5Ocopy(source.get(), name.c_str(), file_, target.c_str(), H5P_DEFAULT, link.get()), path_, target);
 }

@@ -78,6 +78,13 @@ void refuse_deep_keys(std::string_view text, const std::string& file) {
   }
 }
 
+/// A value that stands in no file has no line.
+void forget_lines(Value& value) {
+  value.line = 0;
+  if (auto* list = std::get_if<ValueList>(&value.data))
+    for (Value& element : *list) forget_lines(element);
+}
+
 [[noreturn]] void refuse(const toml::parse_error& error, const std::string& file) {
   const std::string said(error.description());
   std::string remedy = "texts and quantities with a unit need quotes, as in diameter = \"20 mm\"";
@@ -121,6 +128,7 @@ std::optional<Value> parse_toml_value(std::string_view text) {
   try {
     std::vector<Entry> entries = parse_toml(fmt::format("value = {}\n", text), "--set");
     if (entries.size() != 1 || entries.front().key != "value") return std::nullopt;
+    forget_lines(entries.front().value);
     return std::move(entries.front().value);
   } catch (const InputError&) {
     return std::nullopt;

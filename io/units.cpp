@@ -72,21 +72,21 @@ DimensionFacts facts(Dimension dimension) {
   return {};
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
 /// One spelling for m^2, m² and "m 2"; micro sign and Greek mu both become u.
 std::string plain_unit(std::string_view written) {
-  std::string unit(written);
-  replace_all(unit, " ", "");
-  replace_all(unit, "\t", "");
-  replace_all(unit, "^", "");
-  replace_all(unit, "\u00b2", "2");
-  replace_all(unit, "\u00b3", "3");
-  replace_all(unit, "\u00b5", "u");
-  replace_all(unit, "\u03bc", "u");
+  constexpr std::pair<std::string_view, std::string_view> spellings[] = {
+      {" ", ""}, {"\t", ""}, {"^", ""}, {"\u00b2", "2"}, {"\u00b3", "3"}, {"\u00b5", "u"}, {"\u03bc", "u"}};
+  std::string unit;
+  while (!written.empty()) {
+    std::string_view from = written.substr(0, 1), to = from;
+    for (const auto& [other, plain] : spellings)
+      if (written.substr(0, other.size()) == other) {
+        from = other;
+        to = plain;
+      }
+    unit.append(to);
+    written.remove_prefix(from.size());
+  }
   return unit;
 }
 
