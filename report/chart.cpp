@@ -94,7 +94,7 @@ void Chart::unclip() {
 
 void Chart::draw_axes(bool x_texts) {
   const TextStyle tick_style{.size = tick_text_size, .colour = palette::soft_ink, .align = Align::right};
-  const std::vector<double> y_ticks = ticks_of(y_, static_cast<int>(std::max(2.0, box_.height / 70.0)));
+  const std::vector<double> y_ticks = ticks_of(y_, static_cast<int>(std::max(2.0, box_.height / 52.0)));
   const std::vector<std::string> y_texts = texts_of(y_, y_ticks);
   double widest = 0.0;
   for (std::size_t k = 0; k < y_ticks.size(); ++k) {

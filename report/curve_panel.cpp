@@ -59,8 +59,7 @@ std::string in_percent(double strain) {
   return short_number(strain * percent, strain < 0.1 ? 2 : 3) + " %";
 }
 
-void draw_grounds(Canvas& canvas, Chart& chart, const CurveMarks& marks) {
-  (void)canvas;
+void draw_grounds(Chart& chart, const CurveMarks& marks) {
   if (marks.plateau_start && marks.plateau_end)
     chart.x_band(*marks.plateau_start * percent, *marks.plateau_end * percent, palette::band, 0.75);
   if (marks.target_stress && marks.target_tolerance)
@@ -101,18 +100,14 @@ void annotate_window(Canvas& canvas, const Chart& chart, const CurveMarks& marks
               {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre});
 }
 
+/// Left of its line and below the text of the plateau: right of it the curve rises.
 void annotate_densification(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
   if (!marks.densification_strain) return;
-  const double x = chart.px(*marks.densification_strain * percent);
-  const std::string value = in_percent(*marks.densification_strain);
-  const TextStyle small{.size = 15.0, .colour = palette::soft_ink};
-  const bool fits = x + 10.0 + canvas.text_width("densification", small) <= chart.box().right();
-  const Align align = fits ? Align::left : Align::right;
-  const double at = fits ? x + 8.0 : x - 8.0;
-  canvas.text(at, chart.box().y + 24.0, "densification",
-              {.size = 15.0, .colour = palette::soft_ink, .align = align, .halo = true});
-  canvas.text(at, chart.box().y + 48.0, value,
-              {.size = 18.0, .colour = palette::soft_ink, .bold = true, .align = align, .halo = true});
+  const double x = chart.px(*marks.densification_strain * percent) - 9.0;
+  canvas.text(x, chart.box().y + 84.0, "densification",
+              {.size = 15.0, .colour = palette::soft_ink, .align = Align::right, .halo = true});
+  canvas.text(x, chart.box().y + 107.0, in_percent(*marks.densification_strain),
+              {.size = 18.0, .colour = palette::soft_ink, .bold = true, .align = Align::right, .halo = true});
 }
 
 void annotate_peak(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
@@ -167,18 +162,19 @@ void annotate_cut(Canvas& canvas, const Chart& chart, const Extent& extent) {
 
 }  // namespace
 
-Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>& series, const CurveMarks& marks) {
+Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>& series, const CurveMarks& marks,
+                       double upper_share) {
   const Extent extent = measure(series, marks);
   const double top = extent.early > 0.0 ? std::min(extent.highest, cut_factor * extent.early) : extent.highest;
   const double level = std::max({marks.plateau_stress.value_or(0.0) * mega, marks.target_stress.value_or(0.0) * mega});
   const bool magnified = marks.plateau_stress && level > 0.0 && level < magnify_below * extent.early;
   constexpr double gap = 44.0;
-  const double upper_height = magnified ? 0.6 * (box.height - gap) : box.height;
+  const double upper_height = magnified ? upper_share * (box.height - gap) : box.height;
   const Axis strain{0.0, extent.strain > 0.0 ? extent.strain : 1.0, "engineering strain (%)"};
 
   Chart upper(canvas, {box.x, box.y, box.width, upper_height}, strain,
               stress_axis(std::max(top, level), extent.lowest));
-  draw_grounds(canvas, upper, marks);
+  draw_grounds(upper, marks);
   upper.draw_axes(!magnified);
   draw_lines(upper, series, marks);
   annotate_window(canvas, upper, marks);
@@ -195,7 +191,7 @@ Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>
   small.low = std::max(small.low, -0.2 * small.high);
   small.label = "stress (MPa)";
   Chart lower(canvas, {box.x, box.y + upper_height + gap, box.width, box.height - upper_height - gap}, strain, small);
-  draw_grounds(canvas, lower, marks);
+  draw_grounds(lower, marks);
   lower.draw_axes();
   draw_lines(lower, series, marks);
   annotate_magnified(canvas, lower, marks);

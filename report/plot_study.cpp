@@ -1,0 +1,182 @@
+// What is here: the picture of a study. What is not: the parts it is put together from (curve_panel.h, block_picture.h,
+// search_panel.h).
+#include "report/plot_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/block_picture.h"
+#include "report/canvas.h"
+#include "report/curve_panel.h"
+#include "report/search_panel.h"
+
+namespace perfora::report {
+namespace {
+
+constexpr double page_width = 1600.0;
+constexpr double page_height = 1000.0;
+constexpr double page_margin = 44.0;
+constexpr double left_axis = 120.0;
+constexpr double left_end = 850.0;
+constexpr double right_start = 915.0;
+constexpr Colour best_colour = palette::blue;
+constexpr Colour start_colour = hex(0xc27800);
+/// Running mean over this much strain: without the spikes of single contacts the level that people compare is left.
+constexpr double smoothing_strain = 0.02;
+/// Not smoothed up to here: the first peak is no spike.
+constexpr double smoothing_start = 0.03;
+constexpr std::size_t grid_points = 600;
+
+double value_at(const StudyCurve& curve, double strain) {
+  const auto after = std::lower_bound(curve.strain.begin(), curve.strain.end(), strain);
+  if (after == curve.strain.begin()) return curve.stress.front();
+  if (after == curve.strain.end()) return curve.stress.back();
+  const auto k = static_cast<std::size_t>(after - curve.strain.begin());
+  const double width = curve.strain[k] - curve.strain[k - 1];
+  const double share = width > 0.0 ? (strain - curve.strain[k - 1]) / width : 1.0;
+  return curve.stress[k - 1] + share * (curve.stress[k] - curve.stress[k - 1]);
+}
+
+/// Mean over the replicates, smoothed, up to the shortest of them. Empty without curves.
+StudyCurve smoothed_mean(const std::vector<StudyCurve>& curves) {
+  StudyCurve mean;
+  double end = 0.0;
+  for (const StudyCurve& curve : curves)
+    if (!curve.strain.empty()) end = end == 0.0 ? curve.strain.back() : std::min(end, curve.strain.back());
+  if (end <= 0.0) return mean;
+  std::vector<double> sum = {0.0};
+  for (std::size_t k = 0; k < grid_points; ++k) {
+    const double strain = end * static_cast<double>(k) / (grid_points - 1);
+    double total = 0.0;
+    double count = 0.0;
+    for (const StudyCurve& curve : curves)
+      if (!curve.strain.empty()) {
+        total += value_at(curve, strain);
+        count += 1.0;
+      }
+    mean.strain.push_back(strain);
+    sum.push_back(sum.back() + total / count);
+  }
+  const double step = end / (grid_points - 1);
+  for (std::size_t k = 0; k < grid_points; ++k) {
+    const double half = std::clamp(mean.strain[k] - smoothing_start, 0.0, 0.5 * smoothing_strain);
+    const std::size_t reach = std::min({static_cast<std::size_t>(half / step), k, grid_points - 1 - k});
+    mean.stress.push_back((sum[k + reach + 1] - sum[k - reach]) / static_cast<double>(2 * reach + 1));
+  }
+  return mean;
+}
+
+/// "best (5 replicates)" with a piece of its line.
+double draw_curve_key(Canvas& canvas, double x, double y, const Colour& colour, const std::string& text) {
+  canvas.line(x, y - 5.5, x + 30.0, y - 5.5, colour, 3.2);
+  const TextStyle style{.size = 15.0};
+  canvas.text(x + 38.0, y, text, style);
+  return x + 38.0 + canvas.text_width(text, style) + 30.0;
+}
+
+std::string replicate_text(const char* what, std::size_t count, const std::optional<double>& plateau,
+                           const std::optional<double>& deviation) {
+  std::string text = fmt::format("{} ({} replicate{})", what, count, count == 1 ? "" : "s");
+  if (plateau) text += ": " + short_number(*plateau * 1e-6);
+  if (plateau && deviation) text += " \u00b1 " + short_number(*deviation * 1e-6, 2);
+  if (plateau) text += " MPa";
+  return text;
+}
+
+void draw_curves(Canvas& canvas, const StudyPicture& picture, const Box& box) {
+  double x = box.x;
+  if (!picture.best.empty())
+    x = draw_curve_key(
+        canvas, x, box.y - 16.0, best_colour,
+        replicate_text("best", picture.best.size(), picture.best_plateau, picture.best_plateau_deviation));
+  if (!picture.start.empty())
+    draw_curve_key(
+        canvas, x, box.y - 16.0, start_colour,
+        replicate_text("start", picture.start.size(), picture.start_plateau, picture.start_plateau_deviation));
+  const StudyCurve best_mean = smoothed_mean(picture.best);
+  const StudyCurve start_mean = smoothed_mean(picture.start);
+  std::vector<Series> series;
+  for (const StudyCurve& curve : picture.start) series.push_back({curve.strain, curve.stress, start_colour, 1.0, 0.28});
+  for (const StudyCurve& curve : picture.best) series.push_back({curve.strain, curve.stress, best_colour, 1.0, 0.28});
+  series.push_back({start_mean.strain, start_mean.stress, start_colour, 2.6, 1.0});
+  series.push_back({best_mean.strain, best_mean.stress, best_colour, 3.0, 1.0});
+  CurveMarks marks;
+  marks.plateau_start = picture.window_start;
+  marks.plateau_end = picture.window_end;
+  marks.plateau_stress = picture.best_plateau;
+  marks.target_stress = picture.target;
+  marks.target_tolerance = picture.target_tolerance;
+  draw_curve_panel(canvas, box, series, marks, 0.42);
+}
+
+Box room_for(const geometry::PerforationLayout& layout, double right, double bottom, double width, double height) {
+  const double scale = std::min(width / layout.width, height / layout.height);
+  return {right - layout.width * scale, bottom - layout.height * scale, layout.width * scale, layout.height * scale};
+}
+
+void draw_designs(Canvas& canvas, const StudyPicture& picture) {
+  const double right = page_width - page_margin;
+  constexpr double bottom = 560.0;
+  double best_left = right;
+  if (picture.best_layout) {
+    const Box box = room_for(*picture.best_layout, right, bottom, 410.0, 410.0);
+    best_left = box.x;
+    draw_layout(canvas, box, *picture.best_layout);
+    canvas.text(
+        box.x, box.y - 12.0,
+        picture.best_number > 0 ? fmt::format("best design (candidate {})", picture.best_number) : "best design",
+        {.size = 18.0, .colour = mix(best_colour, palette::ink, 0.3), .bold = true});
+    draw_scale_bar(canvas, box.right(), box.bottom() + 26.0, box.width / picture.best_layout->width);
+  }
+  if (picture.start_layout) {
+    const double width = std::min(215.0, best_left - 34.0 - right_start);
+    const Box box = room_for(*picture.start_layout, right_start + width, bottom, width, 410.0);
+    draw_layout(canvas, box, *picture.start_layout);
+    canvas.text(box.x, box.y - 12.0, "start",
+                {.size = 18.0, .colour = mix(start_colour, palette::ink, 0.3), .bold = true});
+  }
+}
+
+void draw_fact_table(Canvas& canvas, const StudyPicture& picture) {
+  constexpr double row_height = 33.0;
+  constexpr double top = 626.0;
+  const double right = page_width - page_margin;
+  const double start_column = right - 232.0;
+  const TextStyle head{.size = 16.0, .colour = palette::soft_ink, .align = Align::right};
+  const bool compare =
+      std::any_of(picture.facts.begin(), picture.facts.end(), [](const auto& fact) { return !fact.start.empty(); });
+  if (compare) canvas.text(start_column, top, "start", head);
+  canvas.text(right, top, "best", head);
+  canvas.line(right_start, top + 11.0, right, top + 11.0, palette::soft_ink);
+  double y = top + row_height;
+  for (const StudyPicture::Fact& fact : picture.facts) {
+    if (y > page_height - 22.0) break;
+    const TextStyle name{.size = 17.0, .colour = palette::soft_ink};
+    const TextStyle plain{.size = 17.0, .align = Align::right};
+    const TextStyle strong{.size = 17.0, .bold = true, .align = Align::right};
+    canvas.text(right_start, y, canvas.fit(fact.name, start_column - 172.0 - right_start, name), name);
+    canvas.text(start_column, y, canvas.fit(fact.start, 165.0, plain), plain);
+    canvas.text(right, y, canvas.fit(fact.best, 220.0, strong), strong);
+    canvas.line(right_start, y + 10.0, right, y + 10.0, palette::grid);
+    y += row_height;
+  }
+}
+
+}  // namespace
+
+void plot_study(const StudyPicture& picture, const std::filesystem::path& out) {
+  Canvas canvas(out, page_width, page_height);
+  const TextStyle title{.size = 30.0, .bold = true};
+  const TextStyle line{.size = 17.0, .colour = palette::soft_ink};
+  canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
+  canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
+  draw_search(canvas, picture, {left_axis, 172.0, left_end - left_axis, 228.0});
+  draw_curves(canvas, picture, {left_axis, 524.0, left_end - left_axis, page_height - 524.0 - 74.0});
+  draw_designs(canvas, picture);
+  draw_fact_table(canvas, picture);
+  canvas.write();
+}
+
+}  // namespace perfora::report

@@ -1,0 +1,165 @@
+// What is here: the XDMF file and its companion. What is not: reading of R.h5 (run_result.h).
+// What ParaView 5.11 needs was tried file by file: points need an explicit connectivity, HyperSlab items lose their
+// geometry, so each frame names datasets of its own.
+#include "report/xdmf.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "io/hdf5.h"
+#include "io/journal.h"
+#include "report/run_result.h"
+
+namespace perfora::report {
+namespace {
+
+enum class Number { int32, float64 };
+
+std::string item(Number number, const std::string& dimensions, const std::string& reference) {
+  const bool is_integer = number == Number::int32;
+  return fmt::format(R"(<DataItem Format="HDF" NumberType="{}" Precision="{}" Dimensions="{}">{}</DataItem>)",
+                     is_integer ? "Int" : "Float", is_integer ? 4 : 8, dimensions, reference);
+}
+
+std::string attribute(const std::string& name, const char* centre, const std::string& data) {
+  return fmt::format("          <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
+                     centre, data);
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// Bonds as they lie in the picture.
+struct Lines {
+  std::vector<std::int32_t> pairs;
+  std::vector<double> damage;
+};
+
+/// Leaves out the bonds whose ends lie more than half a cell apart: those reach across the periodic boundary.
+Lines lines_of(const Frame& frame) {
+  Lines lines;
+  const FrameInfo& cell = frame.info;
+  for (std::size_t b = 0; b < frame.bond_damage.size(); ++b) {
+    const auto i = static_cast<std::size_t>(frame.bond_pairs[2 * b]);
+    const auto j = static_cast<std::size_t>(frame.bond_pairs[2 * b + 1]);
+    const double dy = frame.position[2 * j + 1] - frame.position[2 * i + 1];
+    const double dx = frame.position[2 * j] - frame.position[2 * i] - cell.h_xy / cell.h_yy * dy;
+    if (std::abs(dx) > 0.5 * cell.h_xx || std::abs(dy) > 0.5 * cell.h_yy) continue;
+    lines.pairs.insert(lines.pairs.end(), {frame.bond_pairs[2 * b], frame.bond_pairs[2 * b + 1]});
+    lines.damage.push_back(frame.bond_damage[b]);
+  }
+  return lines;
+}
+
+/// File names as the XDMF file writes them, and sizes.
+struct Names {
+  std::string run, companion;
+  std::int32_t discs = 0;
+};
+
+std::string discs_grid(const Names& names, const std::string& frame) {
+  const std::string n = std::to_string(names.discs);
+  const std::string group = names.run + ":/frames/" + frame + "/discs/";
+  std::string text = "        <Grid Name=\"discs\" GridType=\"Uniform\">\n";
+  text += fmt::format(
+      "          <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
+      n, item(Number::int32, n + " 1", names.companion + ":/discs/connectivity"));
+  text += "          <Geometry GeometryType=\"XY\">" + item(Number::float64, n + " 2", group + "position") +
+          "</Geometry>\n";
+  text += attribute("radius", "Node", item(Number::float64, n, names.run + ":/clipped/radius"));
+  text += attribute("angle", "Node", item(Number::float64, n, group + "angle"));
+  text += attribute("fragment", "Node", item(Number::int32, n, group + "fragment"));
+  text += attribute("damage", "Node", item(Number::float64, n, group + "damage"));
+  return text + "        </Grid>\n";
+}
+
+std::string bonds_grid(const Names& names, const std::string& frame, std::size_t bonds) {
+  const std::string m = std::to_string(bonds);
+  const std::string group = names.companion + ":/frames/" + frame + "/bonds/";
+  std::string text = "        <Grid Name=\"bonds\" GridType=\"Uniform\">\n";
+  text += fmt::format(
+      "          <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n", m,
+      item(Number::int32, m + " 2", group + "pairs"));
+  text +=
+      "          <Geometry GeometryType=\"XY\">" +
+      item(Number::float64, std::to_string(names.discs) + " 2", names.run + ":/frames/" + frame + "/discs/position") +
+      "</Geometry>\n";
+  text += attribute("damage", "Cell", item(Number::float64, m, group + "damage"));
+  return text + "        </Grid>\n";
+}
+
+std::string cell_grid(const FrameInfo& cell) {
+  std::string text = "        <Grid Name=\"cell\" GridType=\"Uniform\">\n";
+  text += "          <Topology TopologyType=\"Polyline\" NumberOfElements=\"1\" NodesPerElement=\"5\">";
+  text +=
+      "<DataItem Format=\"XML\" NumberType=\"Int\" Precision=\"4\" Dimensions=\"1 5\">0 1 2 3 "
+      "0</DataItem></Topology>\n";
+  text +=
+      "          <Geometry GeometryType=\"XY\"><DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" "
+      "Dimensions=\"4 2\">";
+  text += fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx, cell.h_xx + cell.h_xy, cell.h_yy,
+                      cell.h_xy);
+  text += "</DataItem></Geometry>\n";
+  text += attribute(
+      "strain", "Cell",
+      fmt::format(R"(<DataItem Format="XML" NumberType="Float" Precision="8" Dimensions="1">{:.17g}</DataItem>)",
+                  cell.strain));
+  return text + "        </Grid>\n";
+}
+
+std::filesystem::path seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code failed;
+  const std::filesystem::path relative = std::filesystem::relative(file, folder.empty() ? "." : folder, failed);
+  return failed || relative.empty() ? std::filesystem::absolute(file) : relative;
+}
+
+}  // namespace
+
+void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out) {
+  const RunResult run = read_run(run_file);
+  std::filesystem::path companion = out;
+  companion += ".h5";
+  const Names names{escaped(seen_from(out.parent_path(), run_file).string()), escaped(companion.filename().string()),
+                    run.clipped.size()};
+
+  io::Hdf5Writer file(companion);
+  file.attribute("/", "format", std::string("perfora.xdmf/1"));
+  std::vector<std::int32_t> connectivity(static_cast<std::size_t>(names.discs));
+  std::iota(connectivity.begin(), connectivity.end(), 0);
+  file.dataset("/discs/connectivity", connectivity, 1);
+
+  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n";
+  text += "    <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    const FrameInfo& info = run.frames[k];
+    const Lines lines = lines_of(read_frame(run, k));
+    file.dataset("/frames/" + info.name + "/bonds/pairs", lines.pairs, 2);
+    file.dataset("/frames/" + info.name + "/bonds/damage", lines.damage);
+    text +=
+        fmt::format("      <Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", info.name);
+    text += fmt::format("        <Time Value=\"{:.17g}\"/>\n", info.time);
+    text += discs_grid(names, info.name) + bonds_grid(names, info.name, lines.damage.size()) + cell_grid(info);
+    text += "      </Grid>\n";
+  }
+  text += "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  file.commit();
+  io::write_file(out, text);
+}
+
+}  // namespace perfora::report
