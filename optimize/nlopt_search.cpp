@@ -27,12 +27,18 @@ bool one_of(const std::string& name, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
 }
 
+/// GN_ORIG_DIRECT of NLopt 2.7.1 reads memory it never set (and hangs or crashes) when it is stopped within its first division of 2 n + 1 points.
+int unstoppable_calls(const SearchOptions& options) {
+  if (!starts_with(options.algorithm, "GN_ORIG_DIRECT")) return 0;
+  return (2 * options.dimension + 1) * (options.constraints + 1);
+}
+
 /// What the callbacks share. NLopt calls back through C, so nothing may be thrown through it.
 struct Callbacks {
-  const SearchOptions* options;
-  const Objective* objective;
-  const Constraints* constraints;
-  nlopt::opt* search;
+  const SearchOptions* options = nullptr;
+  const Objective* objective = nullptr;
+  const Constraints* constraints = nullptr;
+  nlopt::opt* search = nullptr;
   SearchEnd end;
   bool over = false;
   std::exception_ptr error;
@@ -40,9 +46,18 @@ struct Callbacks {
   std::vector<double> limits;        ///< constraint values there
   bool limits_known = false;
 
+  int calls = 0;  ///< of any kind
+
   void stop() {
     over = true;
-    search->force_stop();
+    if (calls > unstoppable_calls(*options)) search->force_stop();
+  }
+
+  /// Every callback passes here first.
+  bool running() {
+    ++calls;
+    if (over) stop();  // Where stopping had to wait.
+    return !over;
   }
 
   /// Counts points: objective and constraints are separate calls at the same one. False when the budget is spent.
@@ -66,7 +81,7 @@ struct Callbacks {
   bool scored = false;  ///< the objective was asked at `point`
 
   double score(unsigned n, const double* x) {
-    if (over || !enter(n, x, true)) return after_the_end;
+    if (!running() || !enter(n, x, true)) return after_the_end;
     const std::optional<double> value = (*objective)(std::span<const double>(x, n));
     if (!value) {
       end.finished = false;
@@ -78,7 +93,7 @@ struct Callbacks {
   }
 
   double limit(unsigned n, const double* x, std::size_t index) {
-    if (over || !enter(n, x, false)) return 1.0;
+    if (!running() || !enter(n, x, false)) return 1.0;
     if (!limits_known) limits = (*constraints)(std::span<const double>(x, n));
     limits_known = true;
     assert(index < limits.size() && std::isfinite(limits[index]));
@@ -134,7 +149,7 @@ void give_inner_search(nlopt::opt& search, const SearchOptions& options) {
 void configure(nlopt::opt& search, const SearchOptions& options) {
   search.set_lower_bounds(0.0);
   search.set_upper_bounds(1.0);
-  search.set_maxeval(options.maxeval);
+  search.set_maxeval(std::max(options.maxeval, unstoppable_calls(options) + 1));
   if (options.xtol > 0.0) search.set_xtol_abs(options.xtol);
   if (options.ftol > 0.0) search.set_ftol_abs(options.ftol);
   if (options.stop_score) search.set_stopval(*options.stop_score);
@@ -165,7 +180,11 @@ SearchEnd run_search(const SearchOptions& options, const Objective& objective, c
   assert(options.dimension >= smallest_dimension(options.algorithm));
   assert(static_cast<int>(options.start.size()) == options.dimension);
   nlopt::opt search(options.algorithm.c_str(), static_cast<unsigned>(options.dimension));
-  Callbacks callbacks{&options, &objective, &constraints, &search, {}, false, {}, {}, {}, false};
+  Callbacks callbacks;
+  callbacks.options = &options;
+  callbacks.objective = &objective;
+  callbacks.constraints = &constraints;
+  callbacks.search = &search;
   configure(search, options);
   search.set_min_objective(score_callback, &callbacks);
   std::vector<ConstraintCall> calls(static_cast<std::size_t>(options.constraints));
