@@ -26,7 +26,7 @@ std::string item(Number number, const std::string& dimensions, const std::string
 }
 
 std::string attribute(const std::string& name, const char* centre, const std::string& data) {
-  return fmt::format("          <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
                      centre, data);
 }
 
@@ -73,54 +73,67 @@ struct Names {
   std::int32_t discs = 0;
 };
 
-std::string discs_grid(const Names& names, const std::string& frame) {
-  const std::string n = std::to_string(names.discs);
-  const std::string group = names.run + ":/frames/" + frame + "/discs/";
-  std::string text = "        <Grid Name=\"discs\" GridType=\"Uniform\">\n";
-  text += fmt::format(
-      "          <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
-      n, item(Number::int32, n + " 1", names.companion + ":/discs/connectivity"));
-  text += "          <Geometry GeometryType=\"XY\">" + item(Number::float64, n + " 2", group + "position") +
-          "</Geometry>\n";
-  text += attribute("radius", "Node", item(Number::float64, n, names.run + ":/clipped/radius"));
-  text += attribute("angle", "Node", item(Number::float64, n, group + "angle"));
-  text += attribute("fragment", "Node", item(Number::int32, n, group + "fragment"));
-  text += attribute("damage", "Node", item(Number::float64, n, group + "damage"));
-  return text + "        </Grid>\n";
+/// One grid at one time. `body`: topology, geometry, attributes.
+std::string grid(const char* name, const FrameInfo& frame, const std::string& body) {
+  return fmt::format(
+      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n{}      </Grid>\n", name,
+      frame.time, body);
 }
 
-std::string bonds_grid(const Names& names, const std::string& frame, std::size_t bonds) {
+std::string topology(const char* type, std::size_t cells, int nodes, const std::string& data) {
+  return fmt::format(
+      "        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\" NodesPerElement=\"{}\">{}</Topology>\n", type,
+      cells, nodes, data);
+}
+
+std::string geometry_of(const Names& names, const FrameInfo& frame) {
+  return "        <Geometry GeometryType=\"XY\">" +
+         item(Number::float64, std::to_string(names.discs) + " 2",
+              names.run + ":/frames/" + frame.name + "/discs/position") +
+         "</Geometry>\n";
+}
+
+std::string discs_grid(const Names& names, const FrameInfo& frame) {
+  const std::string n = std::to_string(names.discs);
+  const std::string group = names.run + ":/frames/" + frame.name + "/discs/";
+  return grid("discs", frame,
+              topology("Polyvertex", static_cast<std::size_t>(names.discs), 1,
+                       item(Number::int32, n + " 1", names.companion + ":/discs/connectivity")) +
+                  geometry_of(names, frame) +
+                  attribute("radius", "Node", item(Number::float64, n, names.run + ":/clipped/radius")) +
+                  attribute("angle", "Node", item(Number::float64, n, group + "angle")) +
+                  attribute("fragment", "Node", item(Number::int32, n, group + "fragment")) +
+                  attribute("damage", "Node", item(Number::float64, n, group + "damage")));
+}
+
+std::string bonds_grid(const Names& names, const FrameInfo& frame, std::size_t bonds) {
   const std::string m = std::to_string(bonds);
-  const std::string group = names.companion + ":/frames/" + frame + "/bonds/";
-  std::string text = "        <Grid Name=\"bonds\" GridType=\"Uniform\">\n";
-  text += fmt::format(
-      "          <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n", m,
-      item(Number::int32, m + " 2", group + "pairs"));
-  text +=
-      "          <Geometry GeometryType=\"XY\">" +
-      item(Number::float64, std::to_string(names.discs) + " 2", names.run + ":/frames/" + frame + "/discs/position") +
-      "</Geometry>\n";
-  text += attribute("damage", "Cell", item(Number::float64, m, group + "damage"));
-  return text + "        </Grid>\n";
+  const std::string group = names.companion + ":/frames/" + frame.name + "/bonds/";
+  return grid("bonds", frame,
+              topology("Polyline", bonds, 2, item(Number::int32, m + " 2", group + "pairs")) +
+                  geometry_of(names, frame) + attribute("damage", "Cell", item(Number::float64, m, group + "damage")));
+}
+
+std::string inline_item(Number number, const char* dimensions, const std::string& values) {
+  const bool is_integer = number == Number::int32;
+  return fmt::format(R"(<DataItem Format="XML" NumberType="{}" Precision="{}" Dimensions="{}">{}</DataItem>)",
+                     is_integer ? "Int" : "Float", is_integer ? 4 : 8, dimensions, values);
 }
 
 std::string cell_grid(const FrameInfo& cell) {
-  std::string text = "        <Grid Name=\"cell\" GridType=\"Uniform\">\n";
-  text += "          <Topology TopologyType=\"Polyline\" NumberOfElements=\"1\" NodesPerElement=\"5\">";
-  text +=
-      "<DataItem Format=\"XML\" NumberType=\"Int\" Precision=\"4\" Dimensions=\"1 5\">0 1 2 3 "
-      "0</DataItem></Topology>\n";
-  text +=
-      "          <Geometry GeometryType=\"XY\"><DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" "
-      "Dimensions=\"4 2\">";
-  text += fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx, cell.h_xx + cell.h_xy, cell.h_yy,
-                      cell.h_xy);
-  text += "</DataItem></Geometry>\n";
-  text += attribute(
-      "strain", "Cell",
-      fmt::format(R"(<DataItem Format="XML" NumberType="Float" Precision="8" Dimensions="1">{:.17g}</DataItem>)",
-                  cell.strain));
-  return text + "        </Grid>\n";
+  const std::string corners = fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx,
+                                          cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
+  return grid("cell", cell,
+              topology("Polyline", 1, 5, inline_item(Number::int32, "1 5", "0 1 2 3 0")) +
+                  "        <Geometry GeometryType=\"XY\">" + inline_item(Number::float64, "4 2", corners) +
+                  "</Geometry>\n" +
+                  attribute("strain", "Cell", inline_item(Number::float64, "1", fmt::format("{:.17g}", cell.strain))));
+}
+
+/// One part of the block through time.
+std::string collection(const char* name, const std::string& grids) {
+  return fmt::format("    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}    </Grid>\n",
+                     name, grids);
 }
 
 std::filesystem::path seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
@@ -144,22 +157,19 @@ void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::pa
   std::iota(connectivity.begin(), connectivity.end(), 0);
   file.dataset("/discs/connectivity", connectivity, 1);
 
-  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n";
-  text += "    <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string discs, bonds, cells;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     const FrameInfo& info = run.frames[k];
     const Lines lines = lines_of(read_frame(run, k));
     file.dataset("/frames/" + info.name + "/bonds/pairs", lines.pairs, 2);
     file.dataset("/frames/" + info.name + "/bonds/damage", lines.damage);
-    text +=
-        fmt::format("      <Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", info.name);
-    text += fmt::format("        <Time Value=\"{:.17g}\"/>\n", info.time);
-    text += discs_grid(names, info.name) + bonds_grid(names, info.name, lines.damage.size()) + cell_grid(info);
-    text += "      </Grid>\n";
+    discs += discs_grid(names, info);
+    bonds += bonds_grid(names, info, lines.damage.size());
+    cells += cell_grid(info);
   }
-  text += "    </Grid>\n  </Domain>\n</Xdmf>\n";
   file.commit();
-  io::write_file(out, text);
+  io::write_file(out, "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n" + collection("discs", discs) +
+                          collection("bonds", bonds) + collection("cell", cells) + "  </Domain>\n</Xdmf>\n");
 }
 
 }  // namespace perfora::report

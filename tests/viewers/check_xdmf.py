@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Opens an R.xdmf in ParaView and compares what it shows with R.h5 as h5py reads it.
+
+usage: check_xdmf.py WRITE_SYNTHETIC FOLDER   writes R.h5 and R.xdmf into FOLDER first
+       check_xdmf.py R.xdmf                   checks a file that exists, R.h5 beside it
+
+Exit code 77 (CTest: skipped) where pvbatch or h5py is missing.
+"""
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SKIPPED = 77
+
+
+def look():
+    """Runs inside pvbatch: prints, for each reader, what it sees, as one JSON line."""
+    from paraview import servermanager
+    from paraview.simple import OpenDataFile, XDMFReader
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+
+    def leaves(data, name=None):
+        if not data.IsA("vtkMultiBlockDataSet") and not data.IsA("vtkMultiPieceDataSet"):
+            return [(name, data)]
+        found = []
+        pieces = data.IsA("vtkMultiPieceDataSet")
+        for k in range(data.GetNumberOfPieces() if pieces else data.GetNumberOfBlocks()):
+            block = data.GetPieceAsDataObject(k) if pieces else data.GetBlock(k)
+            label = data.GetMetaData(k).Get(vtkCompositeDataSet.NAME()) if data.HasMetaData(k) else None
+            if block is not None:
+                found += leaves(block, label)
+        return found
+
+    def arrays(fields):
+        ranges = {}
+        for k in range(fields.GetNumberOfArrays()):
+            ranges[fields.GetArrayName(k)] = list(fields.GetArray(k).GetRange())
+        return ranges
+
+    def report(reader):
+        reader.UpdatePipeline()
+        steps = []
+        for time in list(reader.TimestepValues):
+            reader.UpdatePipeline(time)
+            grids = []
+            for name, grid in leaves(servermanager.Fetch(reader)):
+                grids.append({"name": name, "points": grid.GetNumberOfPoints(), "cells": grid.GetNumberOfCells(),
+                              "bounds": list(grid.GetBounds()), "point_arrays": arrays(grid.GetPointData()),
+                              "cell_arrays": arrays(grid.GetCellData())})
+            steps.append({"time": time, "grids": grids})
+        return steps
+
+    path = sys.argv[-1]
+    print("LOOK " + json.dumps({"default": report(OpenDataFile(path)), "XDMFReader": report(XDMFReader(FileNames=[path]))}))
+
+
+def expected(run_file):
+    """The same numbers from R.h5 itself, bonds across the periodic boundary left out."""
+    import h5py
+    import numpy
+
+    steps = []
+    with h5py.File(run_file, "r") as file:
+        radius = file["clipped/radius"][:]
+        for name in sorted(file["frames"]):
+            frame = file["frames"][name]
+            position, pairs = frame["discs/position"][:], frame["bonds/pairs"][:].reshape(-1, 2)
+            cell = numpy.array([frame.attrs["h_xx"], frame.attrs["h_yy"]])
+            inside = (numpy.abs(position[pairs[:, 0]] - position[pairs[:, 1]]) < cell / 2).all(axis=1)
+            steps.append({"time": frame.attrs["time"], "discs": len(radius), "bonds": int(inside.sum()),
+                          "bounds": [*position.min(axis=0), *position.max(axis=0)], "strain": frame.attrs["strain"],
+                          "radius": [radius.min(), radius.max()],
+                          "fragment": [frame["discs/fragment"][:].min(), frame["discs/fragment"][:].max()],
+                          "damage": [frame["discs/damage"][:].min(), frame["discs/damage"][:].max()],
+                          "angle": [frame["discs/angle"][:].min(), frame["discs/angle"][:].max()],
+                          "cell": [0.0, cell[0], 0.0, cell[1]]})
+    return sorted(steps, key=lambda step: step["strain"])
+
+
+def require(condition, text):
+    if not condition:
+        sys.exit("FAILED: " + text)
+
+
+def close(a, b):
+    return all(abs(x - y) <= 1e-9 * max(1.0, abs(y)) for x, y in zip(a, b))
+
+
+def compare(reader, seen, wanted):
+    require(len(seen) == len(wanted), f"{reader}: {len(seen)} time steps, not {len(wanted)}")
+    for step, want in zip(seen, wanted):
+        where = f"{reader}, time {want['time']}"
+        require(close([step["time"]], [want["time"]]), f"{where}: time {step['time']}")
+        require(len(step["grids"]) == 3, f"{where}: {len(step['grids'])} grids, not 3")
+        discs, bonds, cell = step["grids"]
+        if reader == "XDMFReader":
+            names = [grid["name"] for grid in step["grids"]]
+            require(names == ["discs", "bonds", "cell"], f"{where}: blocks {names}")
+        require(discs["points"] == discs["cells"] == want["discs"], f"{where}: {discs['cells']} discs, not {want['discs']}")
+        require(bonds["cells"] == want["bonds"], f"{where}: {bonds['cells']} bonds, not {want['bonds']}")
+        x_low, x_high, y_low, y_high = discs["bounds"][:4]
+        require(close([x_low, y_low, x_high, y_high], want["bounds"]), f"{where}: discs within {discs['bounds']}")
+        require(close(cell["bounds"][:4], want["cell"]), f"{where}: cell {cell['bounds']}")
+        for name in ("radius", "angle", "fragment", "damage"):
+            require(close(discs["point_arrays"].get(name, [1e99] * 2), want[name]), f"{where}: array {name} of the discs")
+        require(want["bonds"] == 0 or "damage" in bonds["cell_arrays"], f"{where}: array damage of the bonds")
+        require(close(cell["cell_arrays"]["strain"], [want["strain"]] * 2), f"{where}: strain")
+
+
+def main():
+    pvbatch = shutil.which("pvbatch")
+    try:
+        import h5py  # noqa: F401
+        have_h5py = True
+    except ImportError:
+        have_h5py = False
+    if pvbatch is None or not have_h5py:
+        print("SKIPPED: " + ("pvbatch (python3-paraview)" if pvbatch is None else "h5py (python3-h5py)") + " is not installed")
+        sys.exit(SKIPPED)
+    xdmf = Path(sys.argv[1])
+    if len(sys.argv) > 2:
+        subprocess.run([sys.argv[1], sys.argv[2]], check=True)
+        xdmf = Path(sys.argv[2]) / "R.xdmf"
+    run = subprocess.run([pvbatch, "--force-offscreen-rendering", __file__, "--look", str(xdmf.resolve())],
+                         capture_output=True, text=True, timeout=240)
+    lines = [line for line in run.stdout.splitlines() if line.startswith("LOOK ")]
+    require(lines, f"pvbatch printed no result (exit code {run.returncode}):\n{run.stdout}\n{run.stderr}")
+    wanted = expected(xdmf.with_suffix(".h5"))
+    for reader, seen in json.loads(lines[0][5:]).items():
+        compare(reader, seen, wanted)
+    print(f"passed: {len(wanted)} time steps, {wanted[0]['discs']} discs, {wanted[0]['bonds']} bonds in the first, two readers")
+
+
+if __name__ == "__main__":
+    look() if "--look" in sys.argv else main()
