@@ -93,6 +93,8 @@ def compare(reader, seen, wanted):
     for step, want in zip(seen, wanted):
         where = f"{reader}, time {want['time']}"
         require(close([step["time"]], [want["time"]]), f"{where}: time {step['time']}")
+        if want["bonds"] == 0 and len(step["grids"]) == 2:  # a reader may leave a grid without cells out
+            step["grids"].insert(1, {"name": "bonds", "points": 0, "cells": 0, "cell_arrays": {}})
         require(len(step["grids"]) == 3, f"{where}: {len(step['grids'])} grids, not 3")
         discs, bonds, cell = step["grids"]
         if reader == "XDMFReader":
