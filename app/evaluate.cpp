@@ -28,9 +28,7 @@ constexpr int most_replicates = 1000;
 optimize::DesignFile read_design(const EvaluateFlags& flags) {
   std::vector<std::string> overrides = flags.common.overrides();
   if (!flags.until.empty()) overrides.push_back("loading.until=" + flags.until);
-  optimize::DesignFile design(flags.design, overrides);
-  log_warnings(design.validate());
-  return design;
+  return optimize::DesignFile(flags.design, overrides);
 }
 
 optimize::EvaluateOptions evaluate_options(const EvaluateFlags& flags, ProgressLine& progress) {
@@ -55,8 +53,11 @@ void say_how_it_ended(solver::RunStatus status, const std::string& reason, const
 
 int evaluate_one(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
+  const std::vector<std::string> warnings = design.validate();
   const auto output = output_or_default(flags.output, default_name(flags.design, ".h5"));
+  if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
   check_run_output(output, flags.common.force, flags.resume);
+  log_warnings(warnings);
   ProgressLine progress("compression", flags.common.quiet);
   optimize::EvaluateOptions options = evaluate_options(flags, progress);
   options.run_file = output;
@@ -74,6 +75,8 @@ int evaluate_one(const EvaluateFlags& flags) {
 
 int evaluate_replicates(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
+  const std::vector<std::string> warnings = design.validate();
+  if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
   optimize::EnsembleOptions options;
   ProgressLine progress("ensemble", flags.common.quiet);
   options.evaluate = evaluate_options(flags, progress);
@@ -81,6 +84,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   options.replicates = flags.replicates;
   options.resume = flags.resume;
   options.force = flags.common.force;
+  log_warnings(warnings);
   options.finished = [&](const optimize::Evaluation& evaluation, const std::filesystem::path& run_file, bool kept) {
     progress.finish("");
     if (!kept && std::filesystem::exists(run_file)) write_beside(run_file);

@@ -29,9 +29,10 @@ double peak_memory() {
 int pack(const PackFlags& flags) {
   flags.common.apply();
   const optimize::DesignFile design(flags.design, flags.common.overrides());
-  log_warnings(design.validate());
+  const std::vector<std::string> warnings = design.validate();
   const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));
   check_new_output(output, flags.common.force);
+  log_warnings(warnings);
 
   const auto start = std::chrono::steady_clock::now();
   ProgressLine progress("packing", flags.common.quiet);

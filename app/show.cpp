@@ -31,8 +31,9 @@ json parse_summary(const std::string& text, const fs::path& path) {
 
 json summary_of_hdf5(const fs::path& path) {
   const io::Hdf5Reader file(path);
-  if (!file.has("/summary"))
-    throw io::InputError({path.string(), 0, "/summary"}, "the file has no summary", what_show_reads);
+  if (!file.has_attribute("/", "format") || !file.has("/summary"))
+    throw io::InputError({path.string(), 0, "format"}, "perfora did not write this file, or not its summary",
+                         what_show_reads);
   return parse_summary(file.text("/summary"), path);
 }
 

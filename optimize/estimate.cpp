@@ -10,6 +10,10 @@ namespace perfora::optimize {
 
 namespace {
 
+/// Around a disc of a dense packing so many discs are missing within a few diameters: its own place, less the crowding
+/// of its neighbours.
+constexpr double missing_discs = 0.6;
+
 /// Area shared by two discs of diameter d whose centres are h apart.
 double lens_area(double diameter, double h) {
   const double radius = 0.5 * diameter;
@@ -56,48 +60,87 @@ Discs periodic_discs(const Design& design) {
           expected_fraction(design.packing)};
 }
 
-/// Step and rate as the solver takes them (model.md, "Motion"), from mean values.
+/// Lengths of bonds: pairs spread evenly over the circle of the horizon, less a core that keeps the discs apart.
+struct BondLengths {
+  double mean = 0.0, mean_square = 0.0;
+};
+
+BondLengths bond_lengths(double density, double radius) {
+  const double core = std::min(0.5 * radius, std::sqrt(missing_discs / (std::numbers::pi * density)));
+  const double ring = radius * radius - core * core;
+  return {2.0 / 3.0 * (std::pow(radius, 3) - std::pow(core, 3)) / ring, 0.5 * (radius * radius + core * core)};
+}
+
+/// Largest K_i/m_i + KR_i/I_i over the discs: the same for all with a uniform step, that of the smallest disc
+/// otherwise.
+double stiffness_over_mass(const Design& design, const Discs& discs, const BondLengths& lengths, double bonds_per_disc,
+                           double density) {
+  const solver::MaterialOptions& material = design.solver.material;
+  const double translation = 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
+                             6.0 * material.normal_stiffness;
+  if (design.solver.dynamics.mass == solver::MassScaling::uniform_step)
+    return 2.0 * translation * density / (material.density * discs.solid_fraction);
+  const double radius = 0.5 * design.packing.maximum_diameter / design.packing.size_ratio;
+  const double mass = material.density * std::numbers::pi * radius * radius;
+  const double rotation =
+      material.tangential_stiffness * (0.25 * bonds_per_disc * lengths.mean_square + 6.0 * radius * radius);
+  return translation / mass + rotation / (0.5 * mass * radius * radius);
+}
+
+double threshold_factor(const solver::MaterialOptions& material, double mean_diameter) {
+  const double ratio = mean_diameter / material.reference_mean_diameter;
+  if (material.threshold_scaling == solver::ThresholdScaling::strength) return ratio;
+  if (material.threshold_scaling == solver::ThresholdScaling::toughness) return std::sqrt(ratio);
+  return 1.0;
+}
+
+/// Step and rate as the solver takes them (solver/mass.h), with means of a whole packing in place of its bonds.
 void estimate_stepping(const Design& design, const geometry::PerforationLayout& layout, const Discs& discs,
                        DesignEstimate& estimate) {
   const solver::MaterialOptions& material = design.solver.material;
-  const double cell = layout.width * layout.height;
-  const double density = static_cast<double>(discs.count) / cell;
-  const double stiffness = material.normal_stiffness, shear = material.tangential_stiffness;
-  const double disc_stiffness = 0.5 * estimate.bonds_per_disc * (stiffness + shear) + 6.0 * stiffness;
-  const double disc_mass = material.density * discs.solid_fraction / density;
-  // Uniform step: translation and rotation of every disc share one frequency.
-  const double omega = std::sqrt(4.0 * disc_stiffness / disc_mass);
-  estimate.time_step =
-      design.solver.dynamics.step_factor * 2.0 / (omega * std::sqrt(1.0 + design.solver.dynamics.cundall_damping));
-  // Block of springs: C11 by Voigt's bound, S = sum l^2/area with <l^2> = r_H^2/2, times the share of solid.
-  const double radius = estimate.horizon_radius;
-  const double bond_density = 0.5 * density * estimate.bonds_per_disc * layout.solid_area_fraction();
-  const double modulus = 0.125 * bond_density * 0.5 * radius * radius * (3.0 * stiffness + shear);
-  const double bulk = material.density * discs.solid_fraction * layout.solid_area_fraction();
-  const double transit = layout.height / std::sqrt(modulus / bulk);
-  constexpr double first_peak_strain = 0.01;
-  estimate.rate = design.solver.loading.rate > 0.0 ? design.solver.loading.rate
-                                                   : first_peak_strain / (design.solver.loading.transits * transit);
-  estimate.steps = std::llround(design.solver.loading.until / (estimate.rate * estimate.time_step));
+  const solver::LoadingOptions& loading = design.solver.loading;
+  const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
+  const double solid = layout.solid_area_fraction();
+  const BondLengths lengths = bond_lengths(density, estimate.horizon_radius);
+  const double stiffness = stiffness_over_mass(design, discs, lengths, estimate.bonds_per_disc, density);
+  const double critical = 2.0 / std::sqrt(2.0 * stiffness * (1.0 + design.solver.dynamics.cundall_damping));
+
+  constexpr double network_share = 0.85;  // of Voigt's bound that a relaxed packing keeps
+  const double squares = 0.5 * density * solid * estimate.bonds_per_disc * lengths.mean_square;
+  const double voigt = squares * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
+  const double wave_speed =
+      std::sqrt(network_share * voigt * solid * solid / (material.density * discs.solid_fraction * solid));
+  const double peak_strain =
+      material.critical_shear_displacement * threshold_factor(material, discs.mean_diameter) / lengths.mean;
+  estimate.rate = loading.rate > 0.0 ? loading.rate : peak_strain * wave_speed / (loading.transits * layout.height);
+
+  const double interval = design.solver.output.history_interval;
+  const double steps_per_row =
+      std::max(1.0, std::ceil(interval / (estimate.rate * design.solver.dynamics.step_factor * critical)));
+  estimate.time_step = interval / (estimate.rate * steps_per_row);
+  estimate.steps = std::llround(std::ceil(loading.until / interval - 1e-9) * steps_per_row);
 }
 
-/// Bytes and seconds from rough figures a bond, a disc, a frame.
+double frame_count(const solver::SolverOptions& options) {
+  const double until = options.loading.until;
+  if (!options.output.frame_strains.empty()) return static_cast<double>(options.output.frame_strains.size());
+  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until / 0.1;
+  if (options.output.frames == solver::FrameChoice::all) return 2.0 + until / 0.01;
+  return 0.0;
+}
+
+/// Bytes and seconds from rough figures a bond, a disc, a row, a frame.
 void estimate_resources(const Design& design, int threads, DesignEstimate& estimate) {
-  constexpr double bytes_per_bond = 250.0, bytes_per_disc = 600.0, bytes_of_program = 3.0e7;
-  constexpr double nanoseconds_per_bond_step = 10.0;  // one thread
-  constexpr double file_bytes_per_disc = 20.0, file_bytes_per_bond = 6.0;
+  constexpr double program_bytes = 3.0e7, bytes_per_bond = 560.0, bytes_per_disc = 1200.0;
+  constexpr double nanoseconds_per_bond_step = 10.0;  // one thread, means over runs in which most bonds break
+  constexpr double file_bytes_per_bond = 30.0, file_bytes_per_disc = 200.0, file_bytes_per_row = 150.0;
+  constexpr double frame_bytes_per_bond = 6.0, frame_bytes_per_disc = 30.0;
   const double discs = static_cast<double>(estimate.discs), bonds = static_cast<double>(estimate.bonds);
-  estimate.memory_bytes = bytes_of_program + bytes_per_bond * bonds + bytes_per_disc * discs;
+  const double rows = design.solver.loading.until / design.solver.output.history_interval;
+  estimate.memory_bytes = program_bytes + bytes_per_bond * bonds + bytes_per_disc * discs;
   estimate.seconds = 1e-9 * nanoseconds_per_bond_step * static_cast<double>(estimate.steps) * bonds / threads;
-  const solver::OutputOptions& output = design.solver.output;
-  double frames = 0.0;
-  if (!output.frame_strains.empty())
-    frames = static_cast<double>(output.frame_strains.size());
-  else if (output.frames == solver::FrameChoice::few)
-    frames = 3.0 + design.solver.loading.until / 0.1;
-  else if (output.frames == solver::FrameChoice::all)
-    frames = 2.0 + design.solver.loading.until / 0.01;
-  estimate.disk_bytes = (frames + 3.0) * (file_bytes_per_disc * discs + file_bytes_per_bond * bonds);
+  estimate.disk_bytes = file_bytes_per_bond * bonds + file_bytes_per_disc * discs + file_bytes_per_row * rows +
+                        frame_count(design.solver) * (frame_bytes_per_bond * bonds + frame_bytes_per_disc * discs);
 }
 
 }  // namespace
@@ -109,11 +152,8 @@ double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double
   const double circle = std::numbers::pi * radius * radius;
   // Shared area of the solid and the solid moved by h: cell - 2 holes + holes shared with the moved holes.
   const double pairs = circle * cell * (2.0 * solid - 1.0) + shared_hole_area(layout, radius);
-  // Around a disc of a jammed packing about 0.6 discs are missing within a few diameters (its own place, less the
-  // crowding of neighbours).
-  constexpr double missing = 0.6;
   const double share = pairs / (circle * cell * solid);  // of a full circle that lies in the solid, seen from a disc
-  return std::max(0.0, (density * circle - missing) * share);
+  return std::max(0.0, (density * circle - missing_discs) * share);
 }
 
 DesignEstimate estimate_design(const DesignFile& file, int threads) {

@@ -9,9 +9,9 @@
 
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
-#include "io/journal.h"
 #include "io/provenance.h"
 #include "optimize/packing_cache.h"
+#include "solver/bond_network.h"
 
 namespace perfora::optimize {
 
@@ -108,6 +108,21 @@ PackedDesign pack_without_bonds(const DesignFile& file, const EvaluateOptions& o
   return packed;
 }
 
+/// The results of a run as an evaluation; curve and all.
+Evaluation evaluation_of(const solver::Response& response, const PackSummary& pack, const Seeds::Effective& seeds,
+                         int replicate) {
+  Evaluation evaluation;
+  evaluation.replicate = replicate;
+  evaluation.seeds = seeds;
+  evaluation.status = response.summary.status;
+  evaluation.reason = response.summary.reason;
+  evaluation.pack = pack;
+  evaluation.pack.bonds_per_disc = response.bonds_per_disc;
+  evaluation.summary = response.summary;
+  evaluation.performance = response.performance;
+  return evaluation;
+}
+
 solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packed, const EvaluateOptions& options,
                                const Seeds::Effective& seeds) {
   solver::RunRequest request;
@@ -142,9 +157,10 @@ PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& option
   const Seeds::Effective seeds = design.design().seeds.effective(replicate);
   PackedDesign packed = pack_without_bonds(design, options, seeds);
   if (packed.periodic.quality.reached && packed.clipped.size() > 0) {
-    const solver::RunEstimate estimate = solver::estimate_run(run_request(design, packed, options, seeds));
-    packed.summary.bonds_per_disc =
-        2.0 * static_cast<double>(estimate.bonds) / static_cast<double>(packed.clipped.size());
+    const std::int64_t bonds =
+        solver::count_bonds(packed.clipped, packed.layout, design.design().solver.material.horizon,
+                            mean_diameter_of(design, packed.periodic));
+    packed.summary.bonds_per_disc = 2.0 * static_cast<double>(bonds) / static_cast<double>(packed.clipped.size());
   }
   return packed;
 }
@@ -162,7 +178,35 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
   return evaluation;
 }
 
+void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate) {
+  EvaluateOptions options;
+  options.packing_file = packing_file;
+  static_cast<void>(periodic_packing(design.design(), options, design.design().seeds.effective(replicate).packing));
+}
+
+std::optional<Evaluation> finished_evaluation(const DesignFile& design, const std::filesystem::path& run_file,
+                                              int replicate) {
+  if (!std::filesystem::exists(run_file)) return std::nullopt;
+  const io::Hdf5Reader file(run_file);
+  if (!file.has("/summary") || !file.has("/config")) return std::nullopt;
+  const nlohmann::json record = nlohmann::json::parse(file.text("/summary"), nullptr, false);
+  if (!record.is_object() || record.value("schema", "") != "perfora.evaluate/1") return std::nullopt;
+  Evaluation evaluation = evaluation_from_json(record);
+  if (evaluation.status == solver::RunStatus::stopped) return std::nullopt;
+  if (file.text("/config") != design.schema().to_toml() || evaluation.replicate != replicate ||
+      evaluation.seeds != design.design().seeds.effective(replicate) ||
+      record.value("results_version", 0) != results_version)
+    throw io::InputError(
+        {run_file.string(), 0, ""}, "holds a finished run of another design, strain, seed or program version", "",
+        "resume with the design and flags it was made with, start anew with --force, or name another output");
+  evaluation.curve.strain_yy = file.doubles("/history/strain_yy");
+  evaluation.curve.stress_yy = file.doubles("/history/stress_yy");
+  return evaluation;
+}
+
 Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+  if (options.resume && !options.run_file.empty())
+    if (auto finished = finished_evaluation(design, options.run_file, replicate)) return std::move(*finished);
   const Seeds::Effective seeds = design.design().seeds.effective(replicate);
   const PackedDesign packed = pack_without_bonds(design, options, seeds);
   if (!packed.periodic.quality.reached || packed.clipped.size() == 0) {
@@ -174,16 +218,12 @@ Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& opti
     failed.performance.threads = options.threads;
     return failed;
   }
-  solver::Response response = solver::run_compression(run_request(design, packed, options, seeds));
-  Evaluation evaluation;
-  evaluation.replicate = replicate;
-  evaluation.seeds = seeds;
-  evaluation.status = response.summary.status;
-  evaluation.reason = response.summary.reason;
-  evaluation.pack = packed.summary;
-  evaluation.pack.bonds_per_disc = response.bonds_per_disc;
-  evaluation.summary = std::move(response.summary);
-  evaluation.performance = std::move(response.performance);
+  solver::RunRequest request = run_request(design, packed, options, seeds);
+  request.summary_text = [&](const solver::Response& response) {
+    return to_json(evaluation_of(response, packed.summary, seeds, replicate), false).dump(2);
+  };
+  solver::Response response = solver::run_compression(request);
+  Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate);
   evaluation.curve = std::move(response.history);
   return evaluation;
 }

@@ -61,6 +61,7 @@ struct Evaluation {
 /// it from a file) and clips. Throws io::InputError; a packing that was not reached shows in periodic.quality.
 PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
 
+/// With options.resume a run that is finished is read from its file, an unfinished one goes on from its checkpoint.
 /// The whole way Design -> PerforationLayout -> Packing -> clipped Packing -> BondNetwork -> Simulation -> Response.
 /// Throws io::InputError for bad input only.
 Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
@@ -77,6 +78,15 @@ double mean_diameter_of(const DesignFile& design, const geometry::Packing& perio
 /// prints.
 void write_pack_file(const std::filesystem::path& path, const DesignFile& design, const PackedDesign& packed,
                      const nlohmann::json& summary, const std::string& command_line);
+
+/// Throws io::InputError unless `packing_file` holds the periodic packing that `design` and `replicate` ask for; what
+/// --packing is checked with before work starts.
+void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate);
+
+/// The evaluation a finished run file holds, when it is one of this design, seeds and strain; nothing when the file is
+/// missing or its run was stopped. Throws io::InputError when it is a finished run of another configuration.
+std::optional<Evaluation> finished_evaluation(const DesignFile& design, const std::filesystem::path& run_file,
+                                              int replicate);
 
 /// JSON forms. SI, engineering strain, null for what was not reached, never NaN.
 nlohmann::json to_json(const PackSummary& summary);
