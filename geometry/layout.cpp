@@ -1,0 +1,251 @@
+// What is here: the keys of [cell] and [layout], the regular and listed families, and what is refused.
+// What is not: random placement (layout_random.cpp), wall thickness (wall.cpp).
+#include "geometry/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "geometry/layout_random.h"
+#include "geometry/random.h"
+#include "io/csv.h"
+#include "io/error.h"
+
+namespace perfora::geometry {
+
+namespace {
+
+/// More holes than this are a mistake of units or count: a block has at most thousands.
+constexpr std::int64_t maximum_holes = 10000;
+/// Smallest wall that counts as thinner than the wanted one, relative to the cell: rounding of a wall that is exactly
+/// as thick as wanted.
+constexpr double wall_rounding = 1e-12;
+
+io::Origin origin_of(const io::Schema* schema, const std::string& key) {
+  io::Origin origin = schema != nullptr ? schema->origin(key) : io::Origin{};
+  origin.key = key;
+  return origin;
+}
+
+std::string millimetres(double length) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g mm", 1e3 * length);
+  return text;
+}
+
+double wrap(double value, double period) {
+  value -= period * std::floor(value / period);
+  return value < period ? value : 0.0;
+}
+
+class Layouter {
+ public:
+  Layouter(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema)
+      : options_(options), seed_(seed), schema_(schema) {}
+
+  /// Everything that can be said before a hole is placed.
+  void check() const {
+    refuse_unless(std::isfinite(options_.width) && options_.width > 0.0, "cell.width", "the cell has no width",
+                  "a positive length");
+    refuse_unless(std::isfinite(options_.height) && options_.height > 0.0, "cell.height", "the cell has no height",
+                  "a positive length");
+    if (options_.family == LayoutFamily::none) return;
+    if (options_.family == LayoutFamily::list) {
+      refuse_unless(options_.holes.empty() != options_.file.empty(), "layout.holes",
+                    "a list layout needs either layout.holes or layout.file", "exactly one of the two",
+                    "give rows of x, y, diameter or the name of a CSV file");
+      refuse_unless(options_.holes.size() % 3 == 0, "layout.holes", "a hole has three numbers",
+                    "rows of x, y, diameter");
+      return;
+    }
+    refuse_unless(std::isfinite(options_.diameter) && options_.diameter > 0.0, "layout.diameter", "holes have no size",
+                  "a positive length");
+    if (options_.family == LayoutFamily::random) {
+      refuse_unless(options_.count >= 1, "layout.count", "there is no hole to place", "1 or more",
+                    "use family = \"none\" for a solid block");
+      refuse_count(options_.count, "layout.count");
+      return;
+    }
+    refuse_unless(options_.rows >= 1, "layout.rows", "there is no row of holes", "1 or more",
+                  "use family = \"none\" for a solid block");
+    refuse_unless(options_.columns >= 1, "layout.columns", "there is no column of holes", "1 or more",
+                  "use family = \"none\" for a solid block");
+    refuse_count(static_cast<std::int64_t>(options_.rows) * options_.columns, "layout.rows");
+    refuse_unless(std::isfinite(options_.jitter) && options_.jitter >= 0.0, "layout.jitter", "jitter is a radius",
+                  "zero or more");
+    if (options_.family == LayoutFamily::staggered) {
+      refuse_unless(std::isfinite(options_.stagger), "layout.stagger", "stagger is not a number",
+                    "a fraction of the pitch");
+      refuse_unless(options_.rows % 2 == 0 || options_.stagger == std::round(options_.stagger), "layout.rows",
+                    std::to_string(options_.rows) + " rows shifted in turn do not repeat periodically",
+                    "an even number of rows", "add or leave out a row, or use family = \"square\"");
+    }
+  }
+
+  PerforationLayout place() const {
+    PerforationLayout layout{options_.width, options_.height, {}};
+    switch (options_.family) {
+      case LayoutFamily::none:
+        break;
+      case LayoutFamily::square:
+        place_rows(layout, 0.0);
+        break;
+      case LayoutFamily::staggered:
+        place_rows(layout, options_.stagger);
+        break;
+      case LayoutFamily::random:
+        layout.perforations = at_random().perforations;
+        break;
+      case LayoutFamily::list:
+        place_list(layout);
+        break;
+    }
+    return layout;
+  }
+
+  RandomPlacement at_random() const {
+    return place_at_random(options_.width, options_.height, options_.count, options_.diameter,
+                           options_.diameter + std::max(0.0, options_.minimum_wall), seed_);
+  }
+
+  void refuse_unless(bool good, const std::string& key, const std::string& problem, const std::string& allowed,
+                     const std::string& remedy = {}) const {
+    if (!good) throw io::InputError(origin_of(schema_, key), problem, allowed, remedy);
+  }
+
+ private:
+  void refuse_count(std::int64_t holes, const std::string& key) const {
+    refuse_unless(holes <= maximum_holes, key, std::to_string(holes) + " holes are too many",
+                  "at most " + std::to_string(maximum_holes) + " holes", "lower the number of holes");
+  }
+
+  void place_rows(PerforationLayout& layout, double stagger) const {
+    const double pitch_x = options_.width / options_.columns, pitch_y = options_.height / options_.rows;
+    for (int row = 0; row < options_.rows; ++row)
+      for (int column = 0; column < options_.columns; ++column) {
+        double x = (column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, y = (row + 0.5) * pitch_y;
+        if (options_.jitter > 0.0) {
+          const auto u = uniform_pair(seed_, RandomStream::hole_jitter, layout.perforations.size());
+          const double distance = options_.jitter * std::sqrt(u[0]), angle = 2.0 * std::numbers::pi * u[1];
+          x += distance * std::cos(angle);
+          y += distance * std::sin(angle);
+        }
+        layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), options_.diameter});
+      }
+  }
+
+  void place_list(PerforationLayout& layout) const {
+    if (options_.file.empty()) {
+      refuse_count(static_cast<std::int64_t>(options_.holes.size() / 3), "layout.holes");
+      for (std::size_t k = 0; k + 2 < options_.holes.size(); k += 3)
+        add_listed(layout, options_.holes[k], options_.holes[k + 1], options_.holes[k + 2],
+                   origin_of(schema_, "layout.holes"));
+      return;
+    }
+    const io::CsvTable table =
+        io::read_csv(options_.file, {"x", "y", "diameter"}, static_cast<std::size_t>(maximum_holes));
+    for (std::size_t k = 0; k < table.rows(); ++k)
+      add_listed(layout, table.columns[0][k], table.columns[1][k], table.columns[2][k],
+                 {options_.file.string(), table.lines[k], "layout.file"});
+  }
+
+  static void add_listed(PerforationLayout& layout, double x, double y, double diameter, const io::Origin& origin) {
+    const std::string name = "hole " + std::to_string(layout.perforations.size() + 1);
+    if (!(std::isfinite(diameter) && diameter > 0.0))
+      throw io::InputError(origin, name + " has no size", "a positive diameter in metres",
+                           "correct or leave out this hole");
+    if (!(x >= 0.0 && x <= layout.width && y >= 0.0 && y <= layout.height))
+      throw io::InputError(origin, name + " at (" + millimetres(x) + ", " + millimetres(y) + ") lies outside the cell",
+                           "0 to " + millimetres(layout.width) + " in x, 0 to " + millimetres(layout.height) + " in y",
+                           "give centres in metres within the cell");
+    layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), diameter});
+  }
+
+  const LayoutOptions& options_;
+  std::uint64_t seed_;
+  const io::Schema* schema_;
+};
+
+const char* size_key(LayoutFamily family) {
+  return family == LayoutFamily::list ? "layout.holes" : "layout.diameter";
+}
+
+}  // namespace
+
+void describe(io::Schema& schema, LayoutOptions& options) {
+  using io::Dimension;
+  using io::Range;
+  schema.section("cell", "The periodic rectangle the block is cut from.")
+      .real("width", options.width, Dimension::length, Range::positive(), "Width of the cell, the period in x.")
+      .real("height", options.height, Dimension::length, Range::positive(),
+            "Height of the cell, the period in y, the direction of loading.");
+  schema.section("layout", "Where the perforations are.")
+      .choice("family", options.family,
+              {{"none", LayoutFamily::none},
+               {"square", LayoutFamily::square},
+               {"staggered", LayoutFamily::staggered},
+               {"random", LayoutFamily::random},
+               {"list", LayoutFamily::list}},
+              "Family of arrangements.")
+      .real("diameter", options.diameter, Dimension::length, Range::positive(),
+            "Diameter of the holes (every family but list).")
+      .integer("rows", options.rows, Range::between(1, 1000), "Rows of holes, one above the other (square, staggered).")
+      .integer("columns", options.columns, Range::between(1, 1000), "Holes in a row (square, staggered).")
+      .real("stagger", options.stagger, Dimension::ratio, Range::between(0, 1),
+            "Shift of every other row as a fraction of the horizontal pitch (staggered); needs an even number of rows.")
+      .real("jitter", options.jitter, Dimension::length, Range::non_negative(),
+            "Each centre moves uniformly within a disc of this radius (square, staggered).")
+      .integer("count", options.count, Range::between(1, static_cast<double>(maximum_holes)),
+               "Number of holes (random).")
+      .real("minimum_wall", options.minimum_wall, Dimension::length, Range::non_negative(),
+            "A thinner wall is refused; random placement keeps it.")
+      .real_rows("holes", options.holes, 3, Dimension::length, "Rows of x, y, diameter (list).")
+      .path("file", options.file, "CSV with columns x, y, diameter in metres, instead of holes (list).");
+}
+
+PerforationLayout place_perforations(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
+  const Layouter layouter(options, seed, schema);
+  layouter.check();
+  return layouter.place();
+}
+
+PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
+  const Layouter layouter(options, seed, schema);
+  layouter.check();
+  const double side = std::min(options.width, options.height);
+  if (options.family != LayoutFamily::none && options.family != LayoutFamily::list)
+    layouter.refuse_unless(options.diameter < side, "layout.diameter",
+                           "a hole of " + millimetres(options.diameter) + " is larger than the cell",
+                           "less than " + millimetres(side), "lower the diameter or enlarge the cell");
+  if (options.family == LayoutFamily::random) {
+    RandomPlacement placement = layouter.at_random();
+    layouter.refuse_unless(placement.fits, "layout.count",
+                           std::to_string(options.count) + " holes of " + millimetres(options.diameter) +
+                               " with walls of " + millimetres(options.minimum_wall) +
+                               " do not fit at random into the cell",
+                           "holes with half their wall covering less than about 80 % of the cell",
+                           "lower layout.count, layout.diameter or layout.minimum_wall");
+    return {options.width, options.height, std::move(placement.perforations)};
+  }
+  PerforationLayout layout = layouter.place();
+  for (std::size_t k = 0; k < layout.perforations.size(); ++k)
+    layouter.refuse_unless(layout.perforations[k].diameter < side, "layout.holes",
+                           "hole " + std::to_string(k + 1) + " of " + millimetres(layout.perforations[k].diameter) +
+                               " is larger than the cell",
+                           "less than " + millimetres(side), "lower its diameter or enlarge the cell");
+  const ThinnestWall wall = thinnest_wall(layout);
+  const std::string pair = wall.first == wall.second
+                               ? "hole " + std::to_string(wall.first + 1) + " and its periodic image"
+                               : "holes " + std::to_string(wall.first + 1) + " and " + std::to_string(wall.second + 1);
+  layouter.refuse_unless(wall.thickness > 0.0, size_key(options.family),
+                         pair + (wall.thickness < 0.0 ? " overlap by " + millimetres(-wall.thickness) : " touch"),
+                         "walls thicker than 0", "lower the diameter or the number of holes");
+  layouter.refuse_unless(wall.thickness >= options.minimum_wall - wall_rounding * side, "layout.minimum_wall",
+                         "the wall between " + pair + " is " + millimetres(wall.thickness),
+                         "at least the minimum wall of " + millimetres(options.minimum_wall),
+                         "lower the diameter, the jitter or the number of holes, or ask for less");
+  return layout;
+}
+
+}  // namespace perfora::geometry

@@ -1,0 +1,156 @@
+// What is here: packings and layouts in HDF5 files as docs/formats.md says, and the comparison of keys.
+// What is not: HDF5 itself (io/hdf5.h).
+#include "geometry/packing_file.h"
+
+#include <cstdio>
+
+#include "io/error.h"
+
+namespace perfora::geometry {
+
+namespace {
+
+std::string digits(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  double back = 0.0;
+  for (int precision = 1; precision <= 17; ++precision) {
+    std::snprintf(text, sizeof text, "%.*g", precision, value);
+    if (std::sscanf(text, "%lf", &back) == 1 && back == value) break;
+  }
+  return text;
+}
+
+PackingKey read_key(const io::Hdf5Reader& file, const std::string& group) {
+  PackingKey key;
+  key.width = file.attribute_double(group, "width");
+  key.height = file.attribute_double(group, "height");
+  key.mean_diameter = file.attribute_double(group, "mean_diameter");
+  key.maximum_diameter = file.attribute_double(group, "maximum_diameter");
+  key.size_ratio = file.attribute_double(group, "size_ratio");
+  key.solid_fraction = file.attribute_double(group, "solid_fraction");
+  key.protocol = file.attribute_text(group, "protocol");
+  key.seed = static_cast<std::uint64_t>(file.attribute_int(group, "seed"));
+  key.algorithm_version = static_cast<int>(file.attribute_int(group, "algorithm_version"));
+  key.source = file.attribute_text(group, "source");
+  return key;
+}
+
+PackingQuality read_quality(const io::Hdf5Reader& file, const std::string& group) {
+  PackingQuality quality;
+  quality.solid_fraction = file.attribute_double(group, "quality_solid_fraction");
+  quality.jamming_fraction = file.attribute_double(group, "jamming_fraction");
+  quality.max_overlap_ratio = file.attribute_double(group, "max_overlap_ratio");
+  quality.coordination_number = file.attribute_double(group, "coordination_number");
+  quality.rattler_fraction = file.attribute_double(group, "rattler_fraction");
+  quality.iterations = file.attribute_int(group, "iterations");
+  quality.reached = file.attribute_int(group, "reached") != 0;
+  quality.reason = file.attribute_text(group, "reason");
+  return quality;
+}
+
+/// A file made or changed by someone else: arrays must be equally long, finite and within the cell.
+void check_arrays(const io::Hdf5Reader& file, const std::string& group, const char* size_name, double width,
+                  double height, const std::vector<double>& x, const std::vector<double>& y,
+                  const std::vector<double>& size) {
+  const io::Origin origin{file.path().string(), 0, group};
+  if (x.size() != y.size() || x.size() != size.size())
+    throw io::InputError(origin, std::string("x, y and ") + size_name + " are not equally long", "arrays of one length",
+                         "make the file again");
+  if (!(width > 0.0 && height > 0.0))
+    throw io::InputError(origin, "the cell has no size", "positive width and height", "make the file again");
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(x[i] >= 0.0 && x[i] < width && y[i] >= 0.0 && y[i] < height && size[i] > 0.0 && size[i] < width + height))
+      throw io::InputError(origin, "entry " + std::to_string(i) + " does not lie in the cell or has no size",
+                           "centres in the cell and a positive " + std::string(size_name), "make the file again");
+}
+
+}  // namespace
+
+void write_packing(io::Hdf5Writer& file, const std::string& group, const Packing& packing) {
+  file.group(group);
+  file.dataset(group + "/x", std::span<const double>(packing.x), 0, "m");
+  file.dataset(group + "/y", std::span<const double>(packing.y), 0, "m");
+  file.dataset(group + "/radius", std::span<const double>(packing.radius), 0, "m");
+  const PackingKey& key = packing.key;
+  file.attribute(group, "width", packing.width);
+  file.attribute(group, "height", packing.height);
+  file.attribute(group, "mean_diameter", key.mean_diameter);
+  file.attribute(group, "maximum_diameter", key.maximum_diameter);
+  file.attribute(group, "size_ratio", key.size_ratio);
+  file.attribute(group, "solid_fraction", key.solid_fraction);
+  file.attribute(group, "protocol", key.protocol);
+  file.attribute(group, "seed", static_cast<std::int64_t>(key.seed));
+  file.attribute(group, "algorithm_version", static_cast<std::int64_t>(key.algorithm_version));
+  file.attribute(group, "source", key.source);
+  const PackingQuality& quality = packing.quality;
+  file.attribute(group, "quality_solid_fraction", quality.solid_fraction);
+  file.attribute(group, "jamming_fraction", quality.jamming_fraction);
+  file.attribute(group, "max_overlap_ratio", quality.max_overlap_ratio);
+  file.attribute(group, "coordination_number", quality.coordination_number);
+  file.attribute(group, "rattler_fraction", quality.rattler_fraction);
+  file.attribute(group, "iterations", quality.iterations);
+  file.attribute(group, "reached", static_cast<std::int64_t>(quality.reached));
+  file.attribute(group, "reason", quality.reason);
+}
+
+void write_layout(io::Hdf5Writer& file, const std::string& group, const PerforationLayout& layout) {
+  std::vector<double> x, y, diameter;
+  for (const Perforation& hole : layout.perforations) {
+    x.push_back(hole.x);
+    y.push_back(hole.y);
+    diameter.push_back(hole.diameter);
+  }
+  file.group(group);
+  file.dataset(group + "/x", std::span<const double>(x), 0, "m");
+  file.dataset(group + "/y", std::span<const double>(y), 0, "m");
+  file.dataset(group + "/diameter", std::span<const double>(diameter), 0, "m");
+  file.attribute(group, "width", layout.width);
+  file.attribute(group, "height", layout.height);
+}
+
+Packing read_packing(const io::Hdf5Reader& file, const std::string& group) {
+  Packing packing;
+  packing.key = read_key(file, group);
+  packing.quality = read_quality(file, group);
+  packing.width = packing.key.width;
+  packing.height = packing.key.height;
+  packing.x = file.doubles(group + "/x");
+  packing.y = file.doubles(group + "/y");
+  packing.radius = file.doubles(group + "/radius");
+  check_arrays(file, group, "radius", packing.width, packing.height, packing.x, packing.y, packing.radius);
+  return packing;
+}
+
+PerforationLayout read_layout(const io::Hdf5Reader& file, const std::string& group) {
+  PerforationLayout layout{file.attribute_double(group, "width"), file.attribute_double(group, "height"), {}};
+  const std::vector<double> x = file.doubles(group + "/x"), y = file.doubles(group + "/y"),
+                            diameter = file.doubles(group + "/diameter");
+  check_arrays(file, group, "diameter", layout.width, layout.height, x, y, diameter);
+  for (std::size_t k = 0; k < x.size(); ++k) layout.perforations.push_back({x[k], y[k], diameter[k]});
+  return layout;
+}
+
+void require_same_key(const PackingKey& wanted, const PackingKey& found, const std::filesystem::path& file) {
+  const auto compare = [&file](const char* field, const auto& design, const auto& stored, auto text) {
+    if (design == stored) return;
+    throw io::InputError({file.string(), 0, std::string("packing.") + field},
+                         "the packing in the file has " + text(stored) + ", the design asks for " + text(design),
+                         "a packing made for this design",
+                         "make the packing again with perfora pack, or change the design");
+  };
+  const auto quoted = [](const std::string& value) { return "\"" + value + "\""; };
+  const auto whole = [](auto value) { return std::to_string(value); };
+  compare("protocol", wanted.protocol, found.protocol, quoted);
+  compare("source", wanted.source, found.source, quoted);
+  compare("width", wanted.width, found.width, digits);
+  compare("height", wanted.height, found.height, digits);
+  compare("mean_diameter", wanted.mean_diameter, found.mean_diameter, digits);
+  compare("maximum_diameter", wanted.maximum_diameter, found.maximum_diameter, digits);
+  compare("size_ratio", wanted.size_ratio, found.size_ratio, digits);
+  compare("solid_fraction", wanted.solid_fraction, found.solid_fraction, digits);
+  compare("seed", wanted.seed, found.seed, whole);
+  compare("algorithm_version", wanted.algorithm_version, found.algorithm_version, whole);
+}
+
+}  // namespace perfora::geometry

@@ -1,0 +1,40 @@
+// What is here: the thinnest wall by its definition, and the choice between that and the Apollonius graph.
+// What is not: CGAL (wall_apollonius.cpp), walls between clipped discs (wall_discretised.cpp).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/layout.h"
+
+namespace perfora::geometry {
+
+namespace {
+
+/// Below this many holes all pairs are cheaper than nine times as many sites of a graph.
+constexpr std::size_t brute_force_holes = 256;
+
+}  // namespace
+
+ThinnestWall thinnest_wall(const PerforationLayout& layout) {
+  return layout.perforations.size() <= brute_force_holes ? thinnest_wall_brute_force(layout)
+                                                         : thinnest_wall_apollonius(layout);
+}
+
+ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {
+  ThinnestWall wall{std::numeric_limits<double>::infinity(), -1, -1};
+  const auto offer = [&wall](double gap, std::size_t first, std::size_t second) {
+    if (gap < wall.thickness) wall = {gap, static_cast<int>(first), static_cast<int>(second)};
+  };
+  const auto nearest = [](double difference, double period) { return -period * std::round(difference / period); };
+  for (std::size_t i = 0; i < layout.perforations.size(); ++i) {
+    const Perforation& a = layout.perforations[i];
+    offer(std::min(layout.width, layout.height) - a.diameter, i, i);
+    for (std::size_t j = i + 1; j < layout.perforations.size(); ++j) {
+      const Perforation& b = layout.perforations[j];
+      offer(a.signed_gap(b, nearest(b.x - a.x, layout.width), nearest(b.y - a.y, layout.height)), i, j);
+    }
+  }
+  return wall;
+}
+
+}  // namespace perfora::geometry
