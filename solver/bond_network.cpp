@@ -12,7 +12,8 @@
 namespace perfora::solver {
 namespace {
 
-constexpr double allowed_dip = 0.25;  // of the mean diameter, model.md "Bonds": the soft rim of clipped discs is not a void
+constexpr double allowed_dip =
+    0.25;  // of the mean diameter, model.md "Bonds": the soft rim of clipped discs is not a void
 
 struct Branch {
   double x, y;
@@ -31,13 +32,15 @@ Branch minimum_image(const geometry::Packing& packing, std::int32_t i, std::int3
 class Perforations {
  public:
   Perforations(const geometry::PerforationLayout& layout, double longest) : layout_(layout) {
-    // A chord of length l dips into a circle of radius R by at most R - sqrt(R^2 - l^2/4): holes where that stays below the allowed dip need no test.
+    // A chord of length l dips into a circle of radius R by at most R - sqrt(R^2 - l^2/4): holes where that stays below
+    // the allowed dip need no test.
     longest_ = longest;
   }
   bool separates(double x, double y, const Branch& branch, double allowed) const {
     for (const geometry::Perforation& hole : layout_.perforations) {
       const double radius = 0.5 * hole.diameter;
-      if (radius > 0.5 * longest_ && radius - std::sqrt(radius * radius - 0.25 * longest_ * longest_) <= allowed) continue;
+      if (radius > 0.5 * longest_ && radius - std::sqrt(radius * radius - 0.25 * longest_ * longest_) <= allowed)
+        continue;
       // Image of the hole nearest to the middle of the segment.
       double cx = hole.x - (x + 0.5 * branch.x), cy = hole.y - (y + 0.5 * branch.y);
       cx -= layout_.width * std::nearbyint(cx / layout_.width);
@@ -57,7 +60,8 @@ class Perforations {
 };
 
 template <class Found>
-void find_bonds(const geometry::Packing& packing, const geometry::PerforationLayout& layout, double horizon, double mean_diameter, const Found& found) {
+void find_bonds(const geometry::Packing& packing, const geometry::PerforationLayout& layout, double horizon,
+                double mean_diameter, const Found& found) {
   const double r_h = horizon * mean_diameter;
   double largest_radius = 0.0;
   for (const double radius : packing.radius) largest_radius = std::max(largest_radius, radius);
@@ -89,25 +93,30 @@ void find_bonds(const geometry::Packing& packing, const geometry::PerforationLay
 
 }  // namespace
 
-BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, const MaterialOptions& material,
-                              const NoiseOptions& noise, std::uint64_t noise_seed, double mean_diameter) {
+BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
+                              const MaterialOptions& material, const NoiseOptions& noise, std::uint64_t noise_seed,
+                              double mean_diameter) {
   std::optional<PerlinField> field;
   if (noise.kind == NoiseKind::perlin) field.emplace(clipped.width, clipped.height, noise.length, noise_seed);
   const double amplitude = noise.deviation > 0.0 ? perlin_amplitude_for(noise.deviation) : noise.amplitude;
   BondNetwork network;
-  find_bonds(clipped, layout, material.horizon, mean_diameter, [&](std::int32_t i, std::int32_t j, const Branch& branch) {
-    const double length = std::sqrt(branch.x * branch.x + branch.y * branch.y);
-    const auto at = static_cast<std::size_t>(i);
-    double strength = 1.0;
-    if (field) strength = perlin_factor(field->value(clipped.x[at] + 0.5 * branch.x, clipped.y[at] + 0.5 * branch.y), amplitude);
-    if (noise.kind == NoiseKind::weibull) strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
-    network.i.push_back(i);
-    network.j.push_back(j);
-    network.rest_length.push_back(length);
-    network.direction_x.push_back(branch.x / length);
-    network.direction_y.push_back(branch.y / length);
-    network.strength.push_back(strength);
-  });
+  find_bonds(
+      clipped, layout, material.horizon, mean_diameter, [&](std::int32_t i, std::int32_t j, const Branch& branch) {
+        const double length = std::sqrt(branch.x * branch.x + branch.y * branch.y);
+        const auto at = static_cast<std::size_t>(i);
+        double strength = 1.0;
+        if (field)
+          strength =
+              perlin_factor(field->value(clipped.x[at] + 0.5 * branch.x, clipped.y[at] + 0.5 * branch.y), amplitude);
+        if (noise.kind == NoiseKind::weibull)
+          strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
+        network.i.push_back(i);
+        network.j.push_back(j);
+        network.rest_length.push_back(length);
+        network.direction_x.push_back(branch.x / length);
+        network.direction_y.push_back(branch.y / length);
+        network.strength.push_back(strength);
+      });
   network.damage.assign(network.i.size(), 0.0);
   network.state.assign(network.i.size(), BondState::intact);
   return network;
@@ -131,7 +140,8 @@ StrengthStatistics strength_statistics(const BondNetwork& network) {
   return s;
 }
 
-std::int64_t count_bonds(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, double horizon, double mean_diameter) {
+std::int64_t count_bonds(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, double horizon,
+                         double mean_diameter) {
   std::int64_t count = 0;
   find_bonds(clipped, layout, horizon, mean_diameter, [&](std::int32_t, std::int32_t, const Branch&) { ++count; });
   return count;

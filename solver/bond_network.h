@@ -11,25 +11,28 @@
 
 namespace perfora::solver {
 
-/// State of a bond: intact, broken in this layout of the kernels (its slot still there, empty), broken and compacted away.
+/// State of a bond: intact, broken in this layout of the kernels (its slot still there, empty), broken and compacted
+/// away.
 enum class BondState : std::uint8_t { intact = 0, broken = 1, compacted = 2 };
 
 /// Bonds as equally long arrays, i < j, sorted by (i, j). Files, events, analysis and checkpoints see only this.
 struct BondNetwork {
   std::vector<std::int32_t> i, j;
-  std::vector<double> rest_length;           ///< l0, m
+  std::vector<double> rest_length;               ///< l0, m
   std::vector<double> direction_x, direction_y;  ///< e0 from i to j in the undeformed cell
-  std::vector<double> strength;              ///< factor on both thresholds
-  std::vector<double> damage;                ///< D
+  std::vector<double> strength;                  ///< factor on both thresholds
+  std::vector<double> damage;                    ///< D
   std::vector<BondState> state;
 
   std::int64_t size() const { return static_cast<std::int64_t>(i.size()); }
 };
 
-/// Bonds every pair with centre distance <= r_H = horizon x mean_diameter, and every touching pair; none where the segment dips into a perforation by more than
-/// 0.25 mean_diameter (model.md, "Bonds"). Strength factors from the noise options at the bond's midpoint. Periodic. Cost O(discs + bonds).
-BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, const MaterialOptions& material,
-                              const NoiseOptions& noise, std::uint64_t noise_seed, double mean_diameter);
+/// Bonds every pair with centre distance <= r_H = horizon x mean_diameter, and every touching pair; none where the
+/// segment dips into a perforation by more than 0.25 mean_diameter (model.md, "Bonds"). Strength factors from the noise
+/// options at the bond's midpoint. Periodic. Cost O(discs + bonds).
+BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
+                              const MaterialOptions& material, const NoiseOptions& noise, std::uint64_t noise_seed,
+                              double mean_diameter);
 
 struct StrengthStatistics {
   double mean = 1.0, deviation = 0.0, smallest = 1.0, largest = 1.0;
@@ -37,6 +40,7 @@ struct StrengthStatistics {
 StrengthStatistics strength_statistics(const BondNetwork& network);
 
 /// Number of bonds of a clipped packing without making them, for pack's bonds_per_disc.
-std::int64_t count_bonds(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, double horizon, double mean_diameter);
+std::int64_t count_bonds(const geometry::Packing& clipped, const geometry::PerforationLayout& layout, double horizon,
+                         double mean_diameter);
 
 }  // namespace perfora::solver

@@ -42,6 +42,8 @@ inline VelocityGradient velocity_gradient(const CellMatrix& before, const CellMa
 }
 
 /// Engineering strain of the height, compression positive.
-inline double engineering_strain(const CellMatrix& start, const CellMatrix& now) { return 1.0 - now.yy / start.yy; }
+inline double engineering_strain(const CellMatrix& start, const CellMatrix& now) {
+  return 1.0 - now.yy / start.yy;
+}
 
 }  // namespace perfora::solver

@@ -1,4 +1,5 @@
-// What is here: a periodic cell grid over reduced coordinates that visits all pairs of near points. What is not: skins, histories (near_pairs.h).
+// What is here: a periodic cell grid over reduced coordinates that visits all pairs of near points. What is not: skins,
+// histories (near_pairs.h).
 #pragma once
 
 #include <algorithm>
@@ -8,14 +9,17 @@
 
 namespace perfora::solver {
 
-/// Bins points of the unit square by counting sort; points of one bin stay in index order. Memory is kept between builds.
+/// Bins points of the unit square by counting sort; points of one bin stay in index order. Memory is kept between
+/// builds.
 class CellGrid {
  public:
-  /// Bins of at least `reach_x` x `reach_y` (reduced units), so that all neighbours within reach lie in the 3 x 3 bins around. s in [0, 1).
+  /// Bins of at least `reach_x` x `reach_y` (reduced units), so that all neighbours within reach lie in the 3 x 3 bins
+  /// around. s in [0, 1).
   template <class Coordinates>
   void build(std::int32_t count, double reach_x, double reach_y, const Coordinates& coordinates) {
     const auto bins = [&](double reach) {
-      return std::max(1, static_cast<int>(std::min(std::floor(1.0 / reach), std::ceil(std::sqrt(static_cast<double>(count) + 1.0)))));
+      return std::max(1, static_cast<int>(std::min(std::floor(1.0 / reach),
+                                                   std::ceil(std::sqrt(static_cast<double>(count) + 1.0)))));
     };
     nx_ = bins(reach_x);
     ny_ = bins(reach_y);
@@ -24,7 +28,8 @@ class CellGrid {
     member_.resize(static_cast<std::size_t>(count));
     for (std::int32_t k = 0; k < count; ++k) {
       const auto s = coordinates(k);
-      const int bx = std::min(nx_ - 1, static_cast<int>(s.first * nx_)), by = std::min(ny_ - 1, static_cast<int>(s.second * ny_));
+      const int bx = std::min(nx_ - 1, static_cast<int>(s.first * nx_)),
+                by = std::min(ny_ - 1, static_cast<int>(s.second * ny_));
       bin_[static_cast<std::size_t>(k)] = by * nx_ + bx;
       ++start_[static_cast<std::size_t>(by * nx_ + bx) + 1];
     }
@@ -34,7 +39,8 @@ class CellGrid {
       member_[static_cast<std::size_t>(cursor_[static_cast<std::size_t>(bin_[static_cast<std::size_t>(k)])]++)] = k;
   }
 
-  /// Calls visit(j) once for every other point in the bins around point i (each bin once, even when the grid is one or two bins wide).
+  /// Calls visit(j) once for every other point in the bins around point i (each bin once, even when the grid is one or
+  /// two bins wide).
   template <class Visit>
   void around(std::int32_t i, const Visit& visit) const {
     const int bin = bin_[static_cast<std::size_t>(i)];

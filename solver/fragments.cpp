@@ -32,13 +32,16 @@ Fragments find_fragments(const BondNetwork& network, const std::vector<double>& 
   std::vector<std::int32_t> roots;
   for (std::size_t d = 0; d < n; ++d)
     if (parent[d] == static_cast<std::int32_t>(d)) roots.push_back(static_cast<std::int32_t>(d));
-  std::stable_sort(roots.begin(), roots.end(),
-                   [&](std::int32_t a, std::int32_t b) { return area[static_cast<std::size_t>(a)] > area[static_cast<std::size_t>(b)]; });
+  std::stable_sort(roots.begin(), roots.end(), [&](std::int32_t a, std::int32_t b) {
+    return area[static_cast<std::size_t>(a)] > area[static_cast<std::size_t>(b)];
+  });
   std::vector<std::int32_t> rank(n, 0);
-  for (std::size_t k = 0; k < roots.size(); ++k) rank[static_cast<std::size_t>(roots[k])] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < roots.size(); ++k)
+    rank[static_cast<std::size_t>(roots[k])] = static_cast<std::int32_t>(k);
   Fragments fragments;
   fragments.label.resize(n);
-  for (std::size_t d = 0; d < n; ++d) fragments.label[d] = rank[static_cast<std::size_t>(root(static_cast<std::int32_t>(d)))];
+  for (std::size_t d = 0; d < n; ++d)
+    fragments.label[d] = rank[static_cast<std::size_t>(root(static_cast<std::int32_t>(d)))];
   fragments.count = static_cast<std::int32_t>(roots.size());
   if (!roots.empty() && total > 0.0) fragments.largest_fraction = area[static_cast<std::size_t>(roots[0])] / total;
   return fragments;

@@ -1,14 +1,16 @@
-// What is here: the vectorised OpenMP backend in double precision. Each disc sums all its own bonds and contacts ("full list") in fixed order, so no two
-// threads write the same place and the bits do not depend on their number. Four bonds make one vector; the lanes are fixed (GCC vector extensions), so the bits
-// do not depend on the instruction set either: no contraction, only IEEE operations.
-// What is not: the law itself (laws.h). Bonds that yield leave the vector path and go through laws.h one by one.
+// What is here: the vectorised OpenMP backend in double precision. Each disc sums all its own bonds and contacts ("full
+// list") in fixed order, so no two threads write the same place and the bits do not depend on their number. Four bonds
+// make one vector; the lanes are fixed (GCC vector extensions), so the bits do not depend on the instruction set
+// either: no contraction, only IEEE operations. What is not: the law itself (laws.h). Bonds that yield leave the vector
+// path and go through laws.h one by one.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "solver/kernels.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define PERFORA_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define PERFORA_CLONES
@@ -24,21 +26,30 @@ constexpr int lanes = 4;
 using Vector = double __attribute__((vector_size(lanes * sizeof(double))));
 using Mask = std::int64_t __attribute__((vector_size(lanes * sizeof(std::int64_t))));
 
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
+std::size_t at(std::int32_t k) {
+  return static_cast<std::size_t>(k);
+}
 
-/// Four half-bonds of one disc. An empty lane points at the disc itself with everything zero and D = 1: its branch is exactly zero, and so is its force.
+/// Four half-bonds of one disc. An empty lane points at the disc itself with everything zero and D = 1: its branch is
+/// exactly zero, and so is its force.
 struct alignas(32) Group {
   Vector l0, e0x, e0y;
-  Vector scale;   ///< 1/(strength zeta(D)): what turns displacements into shares of the current yield surface, before 1/delta^0
+  Vector scale;   ///< 1/(strength zeta(D)): what turns displacements into shares of the current yield surface, before
+                  ///< 1/delta^0
   Vector damage;  ///< D
   std::int32_t neighbour[lanes];
   std::int32_t bond[lanes];  ///< -1: empty
 };
 
-PERFORA_INLINE Vector splat(double v) { return Vector{v, v, v, v}; }
-PERFORA_INLINE double sum(const Vector& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+PERFORA_INLINE Vector splat(double v) {
+  return Vector{v, v, v, v};
+}
+PERFORA_INLINE double sum(const Vector& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
 
-/// Nearest integer of |v| < 2^51, ties to even, by the addition that pushes the fraction out: one instruction set for all.
+/// Nearest integer of |v| < 2^51, ties to even, by the addition that pushes the fraction out: one instruction set for
+/// all.
 PERFORA_INLINE Vector nearest(Vector v) {
   const Vector magic = splat(6755399441055744.0);  // 1.5 x 2^52
   return (v + magic) - magic;
@@ -59,7 +70,9 @@ PERFORA_INLINE Vector half_integer_power_of(Vector base, int twice_exponent) {
   return result;
 }
 
-PERFORA_INLINE Vector magnitude(Vector v) { return v < 0.0 ? -v : v; }
+PERFORA_INLINE Vector magnitude(Vector v) {
+  return v < 0.0 ? -v : v;
+}
 
 /// Everything the loops over one chunk read and write.
 struct ChunkTask {
@@ -74,8 +87,9 @@ struct ChunkTask {
   StepSums sums;
 };
 
-/// Off the vector path: one end of a bond that yields (or, with damage in compression, is damaged). Updates D, writes the network from the lower end,
-/// and returns the forces; both ends see mirrored numbers and so take the same decision.
+/// Off the vector path: one end of a bond that yields (or, with damage in compression, is damaged). Updates D, writes
+/// the network from the lower end, and returns the forces; both ends see mirrored numbers and so take the same
+/// decision.
 BondForce yielding_bond(ChunkTask& task, std::int32_t i, Group& group, int lane) {
   ForceStep& step = *task.step;
   const BondLaw& law = *task.bond;
@@ -90,7 +104,8 @@ BondForce yielding_bond(ChunkTask& task, std::int32_t i, Group& group, int lane)
   const double strength = step.network.strength[at(id)];
   const double damage = updated_damage(law, k.delta_n, k.delta_t, strength, old_damage);
   if (damage > old_damage) {
-    const BondKinematics old = kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before, e0x, e0y, l0);
+    const BondKinematics old =
+        kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before, e0x, e0y, l0);
     const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
     double dissipated = damageable_energy(law, before, now) * (damage - old_damage);
     if (i < j) step.network.damage[at(id)] = damage;
@@ -116,7 +131,8 @@ BondForce yielding_bond(ChunkTask& task, std::int32_t i, Group& group, int lane)
 }
 
 /// One end of a contact, seen from disc i; adds to its force and torque.
-PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot, double& fx, double& fy, double& torque) {
+PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot, double& fx, double& fy,
+                                double& torque) {
   ForceStep& step = *task.step;
   const DiscState& discs = step.discs;
   const std::int32_t j = slot.neighbour;
@@ -185,10 +201,14 @@ PERFORA_INLINE void chunk_forces(ChunkTask& task) {
       std::memcpy(&r1, record + group.neighbour[1], sizeof r1);
       std::memcpy(&r2, record + group.neighbour[2], sizeof r2);
       std::memcpy(&r3, record + group.neighbour[3], sizeof r3);
-      const Vector low01 = __builtin_shuffle(r0, r1, Mask{0, 4, 2, 6}), high01 = __builtin_shuffle(r0, r1, Mask{1, 5, 3, 7});
-      const Vector low23 = __builtin_shuffle(r2, r3, Mask{0, 4, 2, 6}), high23 = __builtin_shuffle(r2, r3, Mask{1, 5, 3, 7});
-      const Vector xj = __builtin_shuffle(low01, low23, Mask{0, 1, 4, 5}), cj = __builtin_shuffle(low01, low23, Mask{2, 3, 6, 7});
-      const Vector yj = __builtin_shuffle(high01, high23, Mask{0, 1, 4, 5}), sj = __builtin_shuffle(high01, high23, Mask{2, 3, 6, 7});
+      const Vector low01 = __builtin_shuffle(r0, r1, Mask{0, 4, 2, 6}),
+                   high01 = __builtin_shuffle(r0, r1, Mask{1, 5, 3, 7});
+      const Vector low23 = __builtin_shuffle(r2, r3, Mask{0, 4, 2, 6}),
+                   high23 = __builtin_shuffle(r2, r3, Mask{1, 5, 3, 7});
+      const Vector xj = __builtin_shuffle(low01, low23, Mask{0, 1, 4, 5}),
+                   cj = __builtin_shuffle(low01, low23, Mask{2, 3, 6, 7});
+      const Vector yj = __builtin_shuffle(high01, high23, Mask{0, 1, 4, 5}),
+                   sj = __builtin_shuffle(high01, high23, Mask{2, 3, 6, 7});
 
       Vector dx = xj - xi, dy = yj - yi;
       dx -= nearest(dx);
@@ -249,14 +269,23 @@ PERFORA_INLINE void chunk_forces(ChunkTask& task) {
   task.sums.virial.yy -= sum(half * virial_yy);
 }
 
-PERFORA_CLONES void chunk_quartic(ChunkTask& task) { chunk_forces<true, false>(task); }
-PERFORA_CLONES void chunk_quartic_weak(ChunkTask& task) { chunk_forces<true, true>(task); }
-PERFORA_CLONES void chunk_general(ChunkTask& task) { chunk_forces<false, false>(task); }
-PERFORA_CLONES void chunk_general_weak(ChunkTask& task) { chunk_forces<false, true>(task); }
+PERFORA_CLONES void chunk_quartic(ChunkTask& task) {
+  chunk_forces<true, false>(task);
+}
+PERFORA_CLONES void chunk_quartic_weak(ChunkTask& task) {
+  chunk_forces<true, true>(task);
+}
+PERFORA_CLONES void chunk_general(ChunkTask& task) {
+  chunk_forces<false, false>(task);
+}
+PERFORA_CLONES void chunk_general_weak(ChunkTask& task) {
+  chunk_forces<false, true>(task);
+}
 
 class OpenmpBackend final : public ForceBackend {
  public:
-  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads) : bond_(bond), contact_(contact), threads_(threads) {}
+  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads)
+      : bond_(bond), contact_(contact), threads_(threads) {}
 
   void load(const BondNetwork& network, const DiscState& discs) override {
     const std::int32_t n = discs.size();
@@ -283,7 +312,8 @@ class OpenmpBackend final : public ForceBackend {
       const auto id = static_cast<std::size_t>(b);
       if (network.state[id] == BondState::compacted) continue;
       for (int end = 0; end < 2; ++end) {
-        const std::int32_t own = end == 0 ? network.i[id] : network.j[id], other = end == 0 ? network.j[id] : network.i[id];
+        const std::int32_t own = end == 0 ? network.i[id] : network.j[id],
+                           other = end == 0 ? network.j[id] : network.i[id];
         const std::int32_t slot = filled[at(own)]++;
         if (network.state[id] != BondState::intact) continue;  // keeps its empty place until the rows are compacted
         Group& group = groups_[at(row_[at(own)] + slot / lanes)];
@@ -316,7 +346,8 @@ class OpenmpBackend final : public ForceBackend {
   StepSums forces(ForceStep& step) override {
     const bool quartic = bond_.twice_alpha == 8;
     const bool weak = bond_.damage_in_compression == DamageInCompression::full;
-    const auto kernel = quartic ? (weak ? chunk_quartic_weak : chunk_quartic) : (weak ? chunk_general_weak : chunk_general);
+    const auto kernel =
+        quartic ? (weak ? chunk_quartic_weak : chunk_quartic) : (weak ? chunk_general_weak : chunk_general);
     const auto count = static_cast<std::int32_t>(tasks_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
     for (std::int32_t c = 0; c < count; ++c) {

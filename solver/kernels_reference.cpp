@@ -1,4 +1,5 @@
-// What is here: the reference backend: sequential, double, each pair once, as plain as the formulas. The oracle of every other backend.
+// What is here: the reference backend: sequential, double, each pair once, as plain as the formulas. The oracle of
+// every other backend.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +8,9 @@
 namespace perfora::solver {
 namespace {
 
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
+std::size_t at(std::int32_t k) {
+  return static_cast<std::size_t>(k);
+}
 
 struct Branch {
   double x, y;
@@ -31,7 +34,8 @@ class ReferenceBackend final : public ForceBackend {
     std::fill(step.discs.torque.begin(), step.discs.torque.end(), 0.0);
     StepSums sums;
     for (std::int64_t b = 0; b < step.network.size(); ++b)
-      if (step.network.state[static_cast<std::size_t>(b)] == BondState::intact) bond(step, static_cast<std::int32_t>(b), sums);
+      if (step.network.state[static_cast<std::size_t>(b)] == BondState::intact)
+        bond(step, static_cast<std::int32_t>(b), sums);
     for (std::int32_t i = 0; i < step.discs.size(); ++i)
       for (std::int32_t k = step.near_pairs.row_begin(i); k < step.near_pairs.row_end(i); ++k) {
         NearSlot& slot = step.near_pairs.slots()[at(k)];
@@ -44,7 +48,8 @@ class ReferenceBackend final : public ForceBackend {
 
  private:
   /// Adds force f on j (and -f on i) with branch r.
-  static void add_pair(DiscState& discs, std::int32_t i, std::int32_t j, const Branch& r, double fx, double fy, StepSums& sums) {
+  static void add_pair(DiscState& discs, std::int32_t i, std::int32_t j, const Branch& r, double fx, double fy,
+                       StepSums& sums) {
     discs.fx[at(j)] += fx;
     discs.fy[at(j)] += fy;
     discs.fx[at(i)] -= fx;
@@ -60,16 +65,18 @@ class ReferenceBackend final : public ForceBackend {
     DiscState& discs = step.discs;
     const std::int32_t i = net.i[at(id)], j = net.j[at(id)];
     const Branch r = branch(discs, i, j, step.cell);
-    const double ci = discs.half_cos[at(i)], si = discs.half_sin[at(i)], cj = discs.half_cos[at(j)], sj = discs.half_sin[at(j)];
-    const BondKinematics k = bond_kinematics(r.x, r.y, net.direction_x[at(id)], net.direction_y[at(id)], net.rest_length[at(id)],
-                                             ci * cj - si * sj, si * cj + ci * sj);
+    const double ci = discs.half_cos[at(i)], si = discs.half_sin[at(i)], cj = discs.half_cos[at(j)],
+                 sj = discs.half_sin[at(j)];
+    const BondKinematics k = bond_kinematics(r.x, r.y, net.direction_x[at(id)], net.direction_y[at(id)],
+                                             net.rest_length[at(id)], ci * cj - si * sj, si * cj + ci * sj);
     const double contact_distance = discs.radius[at(i)] + discs.radius[at(j)];
     const double touch = std::min(contact_distance, net.rest_length[at(id)]);
     const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     const double damage = updated_damage(bond_, k.delta_n, k.delta_t, net.strength[at(id)], net.damage[at(id)]);
     if (damage > net.damage[at(id)]) {
-      const BondKinematics old = kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before,
-                                               net.direction_x[at(id)], net.direction_y[at(id)], net.rest_length[at(id)]);
+      const BondKinematics old =
+          kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before,
+                        net.direction_x[at(id)], net.direction_y[at(id)], net.rest_length[at(id)]);
       const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
       sums.damage += damageable_energy(bond_, before, now) * (damage - net.damage[at(id)]);
       net.damage[at(id)] = damage;
@@ -103,7 +110,8 @@ class ReferenceBackend final : public ForceBackend {
     if (length > sum_radii) slot.touch = sum_radii;
     const double overlap = slot.touch - length;
     if (overlap > 0.0) {
-      const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
+      const double lever_i = length * discs.radius[at(i)] / sum_radii,
+                   lever_j = length * discs.radius[at(j)] / sum_radii;
       const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
       const double effective_mass = discs.mass[at(i)] * discs.mass[at(j)] / (discs.mass[at(i)] + discs.mass[at(j)]);
       const ContactForce f = contact_force(contact_, overlap, v_n, v_t, effective_mass, step.dt, slot.history);

@@ -1,6 +1,7 @@
-// What is here: the bond law and the contact law as parameter structs and pure inline functions from scalars to scalars (history in, history out).
-// What is not: loops, discs, lists (kernels_*.cpp, contacts.cpp). Only IEEE basic operations and sqrt, so that bits do not depend on a maths library.
-// Sources: paper, Fig. 3 and Table 1; docs/theory.md for what the paper leaves open.
+// What is here: the bond law and the contact law as parameter structs and pure inline functions from scalars to scalars
+// (history in, history out). What is not: loops, discs, lists (kernels_*.cpp, contacts.cpp). Only IEEE basic operations
+// and sqrt, so that bits do not depend on a maths library. Sources: paper, Fig. 3 and Table 1; docs/theory.md for what
+// the paper leaves open.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +14,12 @@ namespace perfora::solver {
 
 /// Parameters of a bond. Short symbols of the paper: k_n, k_t, delta_n^0, delta_t^0, alpha, zeta_max, D.
 struct BondLaw {
-  double normal_stiffness = 0.0;             ///< k_n, N/m
-  double tangential_stiffness = 0.0;         ///< k_t, N/m
-  double inverse_critical_normal = 0.0;      ///< 1/delta_n^0, 1/m
-  double inverse_critical_shear = 0.0;       ///< 1/delta_t^0, 1/m
-  int twice_alpha = 8;                       ///< 2 alpha: the yield exponent in steps of one half
-  double rupture_delay = 1.1;                ///< zeta_max >= 1
+  double normal_stiffness = 0.0;         ///< k_n, N/m
+  double tangential_stiffness = 0.0;     ///< k_t, N/m
+  double inverse_critical_normal = 0.0;  ///< 1/delta_n^0, 1/m
+  double inverse_critical_shear = 0.0;   ///< 1/delta_t^0, 1/m
+  int twice_alpha = 8;                   ///< 2 alpha: the yield exponent in steps of one half
+  double rupture_delay = 1.1;            ///< zeta_max >= 1
   DamageForm damage_form = DamageForm::linear_damage;
   DamageInCompression damage_in_compression = DamageInCompression::none;
 };
@@ -34,8 +35,9 @@ inline double half_integer_power(double base, int twice_exponent) {
   return result;
 }
 
-/// Yield function phi(zeta) = delta_n/(zeta delta_n^0) + (|delta_t|/(zeta delta_t^0))^alpha - 1 (paper, Fig. 3), with both thresholds times `strength`.
-/// delta_n is signed: compression raises the shear strength. `inverse_zeta` = 1/zeta; displacements in m.
+/// Yield function phi(zeta) = delta_n/(zeta delta_n^0) + (|delta_t|/(zeta delta_t^0))^alpha - 1 (paper, Fig. 3), with
+/// both thresholds times `strength`. delta_n is signed: compression raises the shear strength. `inverse_zeta` = 1/zeta;
+/// displacements in m.
 inline double bond_yield(const BondLaw& law, double delta_n, double delta_t, double strength, double inverse_zeta) {
   const double scale = inverse_zeta / strength;
   return delta_n * law.inverse_critical_normal * scale +
@@ -55,8 +57,9 @@ inline double damage_of_zeta(const BondLaw& law, double zeta) {
   return law.damage_form == DamageForm::linear_damage ? share : law.rupture_delay * share / zeta;
 }
 
-/// Damage after the displacements reached (delta_n, delta_t): unchanged inside the yield surface, 1 beyond phi(zeta_max) = 0, else from the root of
-/// phi(zeta) = 0. Never decreases. With s = 1/zeta, g(s) = a s + (b s)^alpha - 1 is convex and positive at the start, so Newton descends monotonically.
+/// Damage after the displacements reached (delta_n, delta_t): unchanged inside the yield surface, 1 beyond
+/// phi(zeta_max) = 0, else from the root of phi(zeta) = 0. Never decreases. With s = 1/zeta, g(s) = a s + (b s)^alpha -
+/// 1 is convex and positive at the start, so Newton descends monotonically.
 inline double updated_damage(const BondLaw& law, double delta_n, double delta_t, double strength, double damage) {
   if (damage >= 1.0) return 1.0;
   if (bond_yield(law, delta_n, delta_t, strength, 1.0 / law.rupture_delay) > 0.0) return 1.0;
@@ -77,7 +80,8 @@ inline double updated_damage(const BondLaw& law, double delta_n, double delta_t,
   return std::max(damage, std::min(1.0, damage_of_zeta(law, zeta)));
 }
 
-/// Share of the normal stiffness that is left: damage always weakens tension; compression only with damage_in_compression = full.
+/// Share of the normal stiffness that is left: damage always weakens tension; compression only with
+/// damage_in_compression = full.
 inline double normal_integrity(const BondLaw& law, double delta_n, double damage) {
   return (delta_n > 0.0 || law.damage_in_compression == DamageInCompression::full) ? 1.0 - damage : 1.0;
 }
@@ -93,7 +97,8 @@ struct BondForce {
   double shear = 0.0;   ///< f_t = (1-D) k_t delta_t, N/m
 };
 
-/// Forces of a bond. With damage_in_compression = full the contact spring k_n grows in parallel by D, so that a closed pair never loses its support.
+/// Forces of a bond. With damage_in_compression = full the contact spring k_n grows in parallel by D, so that a closed
+/// pair never loses its support.
 inline BondForce bond_force(const BondLaw& law, const BondPoint& at, double damage) {
   double normal = law.normal_stiffness * normal_integrity(law, at.delta_n, damage) * at.delta_n;
   if (law.damage_in_compression == DamageInCompression::full) normal -= law.normal_stiffness * damage * at.overlap;
@@ -109,8 +114,9 @@ inline double bond_energy(const BondLaw& law, const BondPoint& at, double damage
   return energy;
 }
 
-/// Energy that a change dD takes at fixed displacements, over dD: U0 = -dU/dD, J/m. Taken between two points it is the bilinear form of the same
-/// quadratic energy, which is exactly what the trapezoid of the forces over that step leaves over (docs/theory.md, "Ledger").
+/// Energy that a change dD takes at fixed displacements, over dD: U0 = -dU/dD, J/m. Taken between two points it is the
+/// bilinear form of the same quadratic energy, which is exactly what the trapezoid of the forces over that step leaves
+/// over (docs/theory.md, "Ledger").
 inline double damageable_energy(const BondLaw& law, const BondPoint& before, const BondPoint& after) {
   double normal = std::max(0.0, before.delta_n) * std::max(0.0, after.delta_n);
   if (law.damage_in_compression == DamageInCompression::full)
@@ -118,25 +124,28 @@ inline double damageable_energy(const BondLaw& law, const BondPoint& before, con
   return 0.5 * (law.normal_stiffness * normal + law.tangential_stiffness * before.delta_t * after.delta_t);
 }
 
-/// What the compression spring of a bond loses when it breaks (damage_in_compression = none): nothing where a contact of the same reference takes over
-/// (l0 <= R_i + R_j), else its energy less that of the contact. Bilinear as above; J/m.
-inline double compression_release(const BondLaw& law, const BondPoint& before, const BondPoint& after, bool contact_takes_over) {
+/// What the compression spring of a bond loses when it breaks (damage_in_compression = none): nothing where a contact
+/// of the same reference takes over (l0 <= R_i + R_j), else its energy less that of the contact. Bilinear as above;
+/// J/m.
+inline double compression_release(const BondLaw& law, const BondPoint& before, const BondPoint& after,
+                                  bool contact_takes_over) {
   if (contact_takes_over || law.damage_in_compression == DamageInCompression::full) return 0.0;
   return 0.5 * law.normal_stiffness *
          (std::max(0.0, -before.delta_n) * std::max(0.0, -after.delta_n) - before.overlap * after.overlap);
 }
 
-/// A bond's displacements from its geometry (docs/theory.md, "Bonds"): branch r = x_j - x_i, reference direction e0 and length l0,
-/// cosine and sine of theta = (theta_i + theta_j)/2.
+/// A bond's displacements from its geometry (docs/theory.md, "Bonds"): branch r = x_j - x_i, reference direction e0 and
+/// length l0, cosine and sine of theta = (theta_i + theta_j)/2.
 struct BondKinematics {
-  double length = 0.0;   ///< |r|
+  double length = 0.0;  ///< |r|
   double nx = 0.0, ny = 0.0;
   double tx = 0.0, ty = 0.0;  ///< t = Q(theta) perp(e0)
-  double along = 0.0;    ///< e . r, the double of the lever of the shear force
+  double along = 0.0;         ///< e . r, the double of the lever of the shear force
   double delta_n = 0.0, delta_t = 0.0;
 };
 
-inline BondKinematics bond_kinematics(double rx, double ry, double e0x, double e0y, double l0, double cosine, double sine) {
+inline BondKinematics bond_kinematics(double rx, double ry, double e0x, double e0y, double l0, double cosine,
+                                      double sine) {
   BondKinematics k;
   k.length = std::sqrt(rx * rx + ry * ry);
   k.nx = rx / k.length;
@@ -172,11 +181,11 @@ struct ContactForce {
   double viscous = 0.0;   ///< dissipated by the viscous force in this step, J/m
 };
 
-/// Contact force at `overlap` > 0 (m) with relative velocities v_n (separating positive) and v_t (m/s) held over the step dt:
-/// f_n = max(0, k_n overlap - c v_n), Coulomb limit mu f_n on the tangential spring. Dissipation is the mean of the forces at both ends of the step
-/// times the displacement in it, which is what the integrator's kicks take out.
-inline ContactForce contact_force(const ContactLaw& law, double overlap, double v_n, double v_t, double effective_mass, double dt,
-                                  ContactHistory& history) {
+/// Contact force at `overlap` > 0 (m) with relative velocities v_n (separating positive) and v_t (m/s) held over the
+/// step dt: f_n = max(0, k_n overlap - c v_n), Coulomb limit mu f_n on the tangential spring. Dissipation is the mean
+/// of the forces at both ends of the step times the displacement in it, which is what the integrator's kicks take out.
+inline ContactForce contact_force(const ContactLaw& law, double overlap, double v_n, double v_t, double effective_mass,
+                                  double dt, ContactHistory& history) {
   const double elastic = law.normal_stiffness * overlap;
   const double damping = 2.0 * law.viscous_rate * std::sqrt(law.normal_stiffness * effective_mass);
   ContactForce force;
@@ -195,7 +204,8 @@ inline ContactForce contact_force(const ContactLaw& law, double overlap, double 
   return force;
 }
 
-/// What is lost when a contact opens: the rest of the tangential spring (friction) and the last half of the viscous work.
+/// What is lost when a contact opens: the rest of the tangential spring (friction) and the last half of the viscous
+/// work.
 inline ContactForce contact_opening(const ContactLaw& law, double v_n, double dt, ContactHistory& history) {
   ContactForce lost;
   lost.friction = 0.5 * law.tangential_stiffness * history.shear * history.shear;

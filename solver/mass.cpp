@@ -16,7 +16,8 @@ struct Stiffness {
   std::vector<double> rotation;     // KR_i, N m
 };
 
-Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, const BondNetwork& network, const MaterialOptions& material) {
+Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, const BondNetwork& network,
+                         const MaterialOptions& material) {
   Stiffness k{std::vector<double>(discs, contacts_to_come * material.normal_stiffness), std::vector<double>(discs)};
   // Contacts turn a disc with lever R: keeps the rotation of discs without long bonds bounded.
   for (std::size_t d = 0; d < discs; ++d)
@@ -34,7 +35,8 @@ Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, co
 
 }  // namespace
 
-MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network, const MaterialOptions& material, const DynamicsOptions& dynamics) {
+MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
+                           const MaterialOptions& material, const DynamicsOptions& dynamics) {
   const std::size_t n = clipped.x.size();
   const Stiffness k = disc_stiffness(n, clipped, network, material);
   MassProperties m;
@@ -54,13 +56,14 @@ MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& 
     }
   }
   double worst = 0.0;
-  for (std::size_t d = 0; d < n; ++d) worst = std::max(worst, k.translation[d] / m.mass[d] + k.rotation[d] / m.inertia[d]);
+  for (std::size_t d = 0; d < n; ++d)
+    worst = std::max(worst, k.translation[d] / m.mass[d] + k.rotation[d] / m.inertia[d]);
   m.critical_step = 2.0 / std::sqrt(2.0 * worst * (1.0 + dynamics.cundall_damping));
   return m;
 }
 
-double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses, const MaterialOptions& material, double cundall_damping,
-                                        int iterations) {
+double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses,
+                                        const MaterialOptions& material, double cundall_damping, int iterations) {
   const std::size_t n = masses.mass.size();
   std::vector<double> ux(n), uy(n), phi(n), fx(n), fy(n), torque(n);
   for (std::size_t d = 0; d < n; ++d) {  // any start with a share in the highest mode: alternating signs
@@ -113,15 +116,18 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
 double threshold_factor(const MaterialOptions& material, double mean_diameter) {
   const double ratio = mean_diameter / material.reference_mean_diameter;
   switch (material.threshold_scaling) {
-    case ThresholdScaling::strength: return ratio;
-    case ThresholdScaling::toughness: return std::sqrt(ratio);
-    case ThresholdScaling::none: break;
+    case ThresholdScaling::strength:
+      return ratio;
+    case ThresholdScaling::toughness:
+      return std::sqrt(ratio);
+    case ThresholdScaling::none:
+      break;
   }
   return 1.0;
 }
 
-LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options, double width, double height,
-                                 double porosity, double mean_diameter) {
+LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options,
+                                 double width, double height, double porosity, double mean_diameter) {
   const MaterialOptions& material = options.material;
   double square_lengths = 0.0, lengths = 0.0;
   for (const double l : network.rest_length) {
@@ -130,14 +136,15 @@ LoadingEstimate estimate_loading(const BondNetwork& network, const MassPropertie
   }
   const double area = width * height;
   LoadingEstimate e;
-  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes about two more powers of it
-  // (docs/theory.md, "Loading rate": measured on square layouts).
+  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
+  // about two more powers of it (docs/theory.md, "Loading rate": measured on square layouts).
   constexpr double network_share = 0.85;  // of Voigt that a relaxed packing keeps
   const double voigt = square_lengths / area * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
   e.modulus = network_share * voigt * (1.0 - porosity) * (1.0 - porosity);
   e.bulk_density = masses.total / area;
   e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
-  // Walls shear off when bonds reach delta_t^0 over their mean length; with holes this is the strain of the first peak, without it is an early estimate.
+  // Walls shear off when bonds reach delta_t^0 over their mean length; with holes this is the strain of the first peak,
+  // without it is an early estimate.
   const double mean_length = network.size() > 0 ? lengths / static_cast<double>(network.size()) : mean_diameter;
   e.peak_strain = material.critical_shear_displacement * threshold_factor(material, mean_diameter) / mean_length;
   e.rate = e.peak_strain * e.wave_speed / (options.loading.transits * height);

@@ -17,25 +17,28 @@ struct MassProperties {
   double total = 0.0;           ///< kg/m
 };
 
-/// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over bonds + 6 k_n for contacts to come,
-/// KR_i = sum k_t l^2/4 (model.md, "Motion"). `physical`: rho pi R^2 and m R^2/2. `uniform_step`: m_i ~ K_i with the total kept and I_i = m_i KR_i/K_i,
-/// so that every disc has the same critical step; statics are exact.
-MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network, const MaterialOptions& material, const DynamicsOptions& dynamics);
+/// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over
+/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (model.md, "Motion"). `physical`: rho pi R^2 and m R^2/2.
+/// `uniform_step`: m_i ~ K_i with the total kept and I_i = m_i KR_i/K_i, so that every disc has the same critical step;
+/// statics are exact.
+MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
+                           const MaterialOptions& material, const DynamicsOptions& dynamics);
 
-/// The true critical step of the intact network: 2/(omega_max sqrt(1+c)) with omega_max from `iterations` of power iteration on M^-1 K (linearised, undeformed).
-double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses, const MaterialOptions& material, double cundall_damping,
-                                        int iterations = 60);
+/// The true critical step of the intact network: 2/(omega_max sqrt(1+c)) with omega_max from `iterations` of power
+/// iteration on M^-1 K (linearised, undeformed).
+double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses,
+                                        const MaterialOptions& material, double cundall_damping, int iterations = 60);
 
 /// What the automatic loading rate rests on.
 struct LoadingEstimate {
-  double modulus = 0.0;      ///< effective C11 of the block, Pa
-  double bulk_density = 0.0; ///< kg/m3
-  double wave_speed = 0.0;   ///< m/s
-  double peak_strain = 0.0;  ///< estimated strain of the first peak
-  double rate = 0.0;         ///< 1/s for the wanted number of transits
+  double modulus = 0.0;       ///< effective C11 of the block, Pa
+  double bulk_density = 0.0;  ///< kg/m3
+  double wave_speed = 0.0;    ///< m/s
+  double peak_strain = 0.0;   ///< estimated strain of the first peak
+  double rate = 0.0;          ///< 1/s for the wanted number of transits
 };
-LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options, double width, double height,
-                                 double porosity, double mean_diameter);
+LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options,
+                                 double width, double height, double porosity, double mean_diameter);
 
 /// Factor on the critical displacements for this disc size (model.md, "Resolution and fidelity").
 double threshold_factor(const MaterialOptions& material, double mean_diameter);

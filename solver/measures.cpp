@@ -83,7 +83,8 @@ double last_upward_crossing(const std::vector<double>& strain, const std::vector
   return nan;
 }
 
-/// Strain of the largest energy efficiency: absorbed energy over (stress reached x 1), Li et al.'s definition with the running maximum of the stress.
+/// Strain of the largest energy efficiency: absorbed energy over (stress reached x 1), Li et al.'s definition with the
+/// running maximum of the stress.
 double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress) {
   double absorbed = 0.0, best = -1.0, at = nan, largest = 0.0;
   for (std::size_t k = 0; k < strain.size(); ++k) {
@@ -103,8 +104,8 @@ double energy_residual(const History& history, double from_strain) {
   double largest_work = 0.0, worst = 0.0;
   for (std::size_t k = 0; k < history.rows(); ++k) {
     largest_work = std::max(largest_work, std::fabs(history.external_work[k]));
-    const double sum = history.elastic_bonds[k] + history.elastic_contacts[k] + history.kinetic[k] + history.damage[k] + history.friction[k] +
-                       history.viscous[k] + history.cundall[k];
+    const double sum = history.elastic_bonds[k] + history.elastic_contacts[k] + history.kinetic[k] + history.damage[k] +
+                       history.friction[k] + history.viscous[k] + history.cundall[k];
     if (history.strain_yy[k] >= from_strain && largest_work > 0.0)
       worst = std::max(worst, std::fabs(history.external_work[k] - sum) / largest_work);
   }
@@ -125,20 +126,24 @@ double loading_modulus(const History& history, double peak_stress, double peak_s
   return n >= 3.0 && spread > 0.0 ? (n * sxy - sx * sy) / spread : nan;
 }
 
-void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area, Summary& summary) {
+void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
+                   Summary& summary) {
   const auto& strain = history.strain_yy;
   const auto& stress = history.stress_yy;
   summary.plateau_start = plateau_start;
   summary.plateau_end = plateau_end;
-  for (double* value : {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
-                        &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
+  for (double* value :
+       {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
+        &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
     *value = nan;
   if (strain.size() < 2) return;
 
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     double smallest = nan;
     for (std::size_t k = 0; k < strain.size(); ++k)
-      if (strain[k] > summary.first_peak_strain && strain[k] <= 2.0 * summary.first_peak_strain + 0.01 && !(stress[k] >= smallest)) smallest = stress[k];
+      if (strain[k] > summary.first_peak_strain && strain[k] <= 2.0 * summary.first_peak_strain + 0.01 &&
+          !(stress[k] >= smallest))
+        smallest = stress[k];
     summary.stress_drop_ratio = smallest / summary.first_peak_stress;
   }
   const std::vector<double> smooth = smoothed(strain, stress, smoothing_width);

@@ -5,12 +5,15 @@
 
 namespace perfora::solver {
 
-/// Fills plateau_stress, minimum_stress_in_window, undulation, densification and efficiency strain, only_rising_strain, stress_drop_ratio,
-/// energy_absorbed and energy_residual of `summary` from the history (model.md, "Measures"; ISO 13314 and DIN 50134 for the window and the 1.3 x plateau end).
-/// What the history does not reach is NaN. first_peak_* must be set. `reference_area`: of the undeformed cell, m2.
-void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area, Summary& summary);
+/// Fills plateau_stress, minimum_stress_in_window, undulation, densification and efficiency strain, only_rising_strain,
+/// stress_drop_ratio, energy_absorbed and energy_residual of `summary` from the history (model.md, "Measures"; ISO
+/// 13314 and DIN 50134 for the window and the 1.3 x plateau end). What the history does not reach is NaN. first_peak_*
+/// must be set. `reference_area`: of the undeformed cell, m2.
+void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
+                   Summary& summary);
 
-/// Largest |external work - sum of all energies| over the rows so far, over the largest work so far; rows before `from_strain` are left out.
+/// Largest |external work - sum of all energies| over the rows so far, over the largest work so far; rows before
+/// `from_strain` are left out.
 double energy_residual(const History& history, double from_strain);
 
 /// Slope of the curve between a quarter and three quarters of the first peak, Pa; NaN when it cannot be fitted.

@@ -6,7 +6,9 @@
 
 namespace perfora::solver {
 namespace {
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
+std::size_t at(std::int32_t k) {
+  return static_cast<std::size_t>(k);
+}
 }  // namespace
 
 void NearPairs::configure(std::int32_t discs, double largest_radius, double skin) {
@@ -31,7 +33,8 @@ void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const Bo
     const auto [low, high] = std::minmax(i, j);
     const auto begin = network.j.begin() + first_bond_[at(low)], end = network.j.begin() + first_bond_[at(low) + 1];
     const auto found = std::lower_bound(begin, end, high);
-    return found != end && *found == high && network.state[static_cast<std::size_t>(found - network.j.begin())] == BondState::intact;
+    return found != end && *found == high &&
+           network.state[static_cast<std::size_t>(found - network.j.begin())] == BondState::intact;
   };
   std::swap(slots_, old_slots_);
   std::swap(start_, old_start_);
@@ -40,7 +43,8 @@ void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const Bo
   // With shear the rows of bins lean: a bin must hold the lean, too.
   const double reach_y = reach / cell.yy, reach_x = (reach + std::fabs(cell.xy) * reach_y) / cell.xx;
   grid_.build(n, std::min(1.0, reach_x), std::min(1.0, reach_y), [&](std::int32_t k) {
-    return std::pair{static_cast<double>(discs.sx[at(k)] >> 11) * 0x1p-53, static_cast<double>(discs.sy[at(k)] >> 11) * 0x1p-53};
+    return std::pair{static_cast<double>(discs.sx[at(k)] >> 11) * 0x1p-53,
+                     static_cast<double>(discs.sy[at(k)] >> 11) * 0x1p-53};
   });
   for (std::int32_t i = 0; i < n; ++i) {
     start_[at(i)] = static_cast<std::int32_t>(slots_.size());
@@ -74,7 +78,8 @@ void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const Bo
 }
 
 bool NearPairs::outdated(double largest_displacement, const CellMatrix& cell) const {
-  // A pair at reduced distance ds moved by (H - H0) ds = (H - H0) H0^-1 r0: its Frobenius norm times the largest listed distance bounds the affine part.
+  // A pair at reduced distance ds moved by (H - H0) ds = (H - H0) H0^-1 r0: its Frobenius norm times the largest listed
+  // distance bounds the affine part.
   const CellMatrix& h = reference_cell_;
   const double exx = (cell.xx - h.xx) / h.xx, eyy = (cell.yy - h.yy) / h.yy;
   const double exy = ((cell.xy - h.xy) - exx * h.xy) / h.yy;

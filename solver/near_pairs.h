@@ -1,5 +1,5 @@
-// What is here: near pairs with their contact history (Verlet list, full rows: each pair stands in both its discs' rows, mirrored).
-// What is not: the contact force (laws.h), the loops over rows (kernels).
+// What is here: near pairs with their contact history (Verlet list, full rows: each pair stands in both its discs'
+// rows, mirrored). What is not: the contact force (laws.h), the loops over rows (kernels).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace perfora::solver {
 struct NearSlot {
   std::int32_t neighbour = 0;
   std::int32_t bonded = 0;  ///< 1 while an intact bond keeps the pair from contact
-  double touch = 0.0;       ///< distance at which it touches: R_i + R_j, or l0 after a break until it has once separated
+  double touch = 0.0;  ///< distance at which it touches: R_i + R_j, or l0 after a break until it has once separated
   ContactHistory history;
 };
 
@@ -25,11 +25,14 @@ class NearPairs {
  public:
   /// `skin`: pairs are listed up to R_i + R_j + skin, m.
   void configure(std::int32_t discs, double largest_radius, double skin);
-  /// Lists all near pairs anew and carries histories over. Intact bonds are looked up in the network (rows of `first_bond`). Keeps its memory.
+  /// Lists all near pairs anew and carries histories over. Intact bonds are looked up in the network (rows of
+  /// `first_bond`). Keeps its memory.
   void rebuild(const DiscState& discs, const CellMatrix& cell, const BondNetwork& network);
-  /// Whether the list may miss a pair: largest fluctuating displacement since the last rebuild and the change of the cell against the skin.
+  /// Whether the list may miss a pair: largest fluctuating displacement since the last rebuild and the change of the
+  /// cell against the skin.
   bool outdated(double largest_displacement, const CellMatrix& cell) const;
-  /// A bond i-j just broke: the end in row i becomes a contact candidate. Called once from each end. Does nothing for a pair that is not near.
+  /// A bond i-j just broke: the end in row i becomes a contact candidate. Called once from each end. Does nothing for a
+  /// pair that is not near.
   void release(std::int32_t i, std::int32_t j, double touch);
 
   std::int32_t row_begin(std::int32_t i) const { return start_[static_cast<std::size_t>(i)]; }

@@ -1,4 +1,5 @@
-// What is here: Perlin's improved noise on a periodic lattice and the Weibull draw; streams from counter-based Philox (Random123).
+// What is here: Perlin's improved noise on a periodic lattice and the Weibull draw; streams from counter-based Philox
+// (Random123).
 #include "solver/noise.h"
 
 #include <Random123/philox.h>
@@ -18,20 +19,40 @@ constexpr int table_size = 256;  // of the permutation; the lattice wraps before
 /// Two uniform numbers in (0, 1) of a counter; 32 bits each.
 std::array<double, 2> uniforms(std::uint64_t seed, std::uint32_t stream, std::uint64_t counter) {
   using Philox = r123::Philox4x32;
-  const Philox::ctr_type input = {{static_cast<std::uint32_t>(counter), static_cast<std::uint32_t>(counter >> 32), stream, 0u}};
+  const Philox::ctr_type input = {
+      {static_cast<std::uint32_t>(counter), static_cast<std::uint32_t>(counter >> 32), stream, 0u}};
   const Philox::key_type key = {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
   const Philox::ctr_type bits = Philox()(input, key);
   return {(bits[0] + 0.5) / 4294967296.0, (bits[1] + 0.5) / 4294967296.0};
 }
 
-double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+double fade(double t) {
+  return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
 
-double lerp(double t, double a, double b) { return a + t * (b - a); }
+double lerp(double t, double a, double b) {
+  return a + t * (b - a);
+}
 
-/// Dot product of gradient `hash` with (x, y, 0): the sixteen entries of the 2002 paper (twelve edges, four of them twice).
+/// Dot product of gradient `hash` with (x, y, 0): the sixteen entries of the 2002 paper (twelve edges, four of them
+/// twice).
 double gradient(int hash, double x, double y) {
-  constexpr std::array<std::array<int, 2>, 16> g = {{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {1, 0}, {-1, 0},
-                                                     {0, 1}, {0, -1}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {0, -1}, {0, -1}}};
+  constexpr std::array<std::array<int, 2>, 16> g = {{{1, 1},
+                                                     {-1, 1},
+                                                     {1, -1},
+                                                     {-1, -1},
+                                                     {1, 0},
+                                                     {-1, 0},
+                                                     {1, 0},
+                                                     {-1, 0},
+                                                     {0, 1},
+                                                     {0, -1},
+                                                     {0, 1},
+                                                     {0, -1},
+                                                     {1, 1},
+                                                     {-1, 1},
+                                                     {0, -1},
+                                                     {0, -1}}};
   const auto& direction = g[static_cast<std::size_t>(hash & 15)];
   return direction[0] * x + direction[1] * y;
 }
@@ -77,8 +98,9 @@ double PerlinField::value(double x, double y) const {
   return lerp(wy, bottom, top);
 }
 
-// Independent corner gradients of zero mean: var p(x, y) = sum over corners of w^2 (E[g_x^2] d_x^2 + E[g_y^2] d_y^2), w = W(d_x) W(d_y), W = 1 - fade;
-// averaged over a lattice cell this is 4 (E[g_x^2] + E[g_y^2]) A B with A = int W^2 t^2 dt, B = int W^2 dt on [0, 1].
+// Independent corner gradients of zero mean: var p(x, y) = sum over corners of w^2 (E[g_x^2] d_x^2 + E[g_y^2] d_y^2), w
+// = W(d_x) W(d_y), W = 1 - fade; averaged over a lattice cell this is 4 (E[g_x^2] + E[g_y^2]) A B with A = int W^2 t^2
+// dt, B = int W^2 dt on [0, 1].
 double perlin_deviation() {
   static const double deviation = [] {
     constexpr int intervals = 1000;  // Simpson; the integrands are polynomials of degree 12
@@ -96,9 +118,15 @@ double perlin_deviation() {
   return deviation;
 }
 
-double perlin_amplitude_for(double deviation) { return 2.0 * deviation / perlin_deviation(); }
-double largest_perlin_amplitude() { return 2.0; }  // |p| <= 1, so 1 + Delta p/2 > 0 needs Delta < 2
-double largest_perlin_deviation() { return 0.5 * largest_perlin_amplitude() * perlin_deviation(); }
+double perlin_amplitude_for(double deviation) {
+  return 2.0 * deviation / perlin_deviation();
+}
+double largest_perlin_amplitude() {
+  return 2.0;
+}  // |p| <= 1, so 1 + Delta p/2 > 0 needs Delta < 2
+double largest_perlin_deviation() {
+  return 0.5 * largest_perlin_amplitude() * perlin_deviation();
+}
 
 double weibull_factor(std::uint64_t seed, std::int64_t bond, double modulus) {
   const double u = uniforms(seed, weibull_stream, static_cast<std::uint64_t>(bond))[0];

@@ -1,4 +1,5 @@
-// What is here: the strength factor of a bond as a function of place (Perlin) or of its identity (Weibull). What is not: bonds.
+// What is here: the strength factor of a bond as a function of place (Perlin) or of its identity (Weibull). What is
+// not: bonds.
 #pragma once
 
 #include <array>
@@ -8,7 +9,8 @@
 
 namespace perfora::solver {
 
-/// Perlin's improved noise (K. Perlin, Improving Noise, SIGGRAPH 2002): twelve edge gradients, quintic fade, slice z = 0, periodic lattice.
+/// Perlin's improved noise (K. Perlin, Improving Noise, SIGGRAPH 2002): twelve edge gradients, quintic fade, slice z =
+/// 0, periodic lattice.
 class PerlinField {
  public:
   /// Lattice of round(width/length) x round(height/length) nodes (at least one), permutation and phase from `seed`.
@@ -25,14 +27,17 @@ class PerlinField {
   std::array<std::uint8_t, 512> permutation_;
 };
 
-/// Standard deviation of p over the plane, from the closed form of the noise at random points (see noise.cpp), and the amplitude for a wanted deviation of the factor.
+/// Standard deviation of p over the plane, from the closed form of the noise at random points (see noise.cpp), and the
+/// amplitude for a wanted deviation of the factor.
 double perlin_deviation();
 double perlin_amplitude_for(double deviation);
 double largest_perlin_amplitude();
 double largest_perlin_deviation();
 
 /// 1 + Delta (noise - 1/2), noise = (p + 1)/2 (docs/theory.md, "Heterogeneity").
-inline double perlin_factor(double p, double amplitude) { return 1.0 + amplitude * ((p + 1.0) / 2.0 - 0.5); }
+inline double perlin_factor(double p, double amplitude) {
+  return 1.0 + amplitude * ((p + 1.0) / 2.0 - 0.5);
+}
 
 /// Weibull factor of mean 1 for one bond: a counter-based draw of (seed, bond).
 double weibull_factor(std::uint64_t seed, std::int64_t bond, double modulus);

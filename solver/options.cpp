@@ -12,10 +12,15 @@ using io::Range;
 
 void describe(io::Schema& schema, SolverOptions& options) {
   MaterialOptions& material = options.material;
-  schema.section("material", "Bonds, contacts and density; defaults are the paper's Table 1 (two-dimensional, per metre of depth).")
-      .real("horizon", material.horizon, Dimension::none, {1.0, 10.0, false, false}, "Bond radius r_H over the mean disc diameter.")
-      .real("normal_stiffness", material.normal_stiffness, Dimension::stiffness, Range::positive(), "k_n of bonds and contacts.")
-      .real("tangential_stiffness", material.tangential_stiffness, Dimension::stiffness, Range::positive(), "k_t of bonds and contacts.")
+  schema
+      .section("material",
+               "Bonds, contacts and density; defaults are the paper's Table 1 (two-dimensional, per metre of depth).")
+      .real("horizon", material.horizon, Dimension::none, {1.0, 10.0, false, false},
+            "Bond radius r_H over the mean disc diameter.")
+      .real("normal_stiffness", material.normal_stiffness, Dimension::stiffness, Range::positive(),
+            "k_n of bonds and contacts.")
+      .real("tangential_stiffness", material.tangential_stiffness, Dimension::stiffness, Range::positive(),
+            "k_t of bonds and contacts.")
       .real("critical_normal_stretch", material.critical_normal_stretch, Dimension::length, Range::positive(),
             "delta_n^0: bond extension at first yield in pure tension, for the reference mean diameter.")
       .real("critical_shear_displacement", material.critical_shear_displacement, Dimension::length, Range::positive(),
@@ -30,21 +35,28 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .choice("damage_in_compression", material.damage_in_compression,
               {{"none", DamageInCompression::none}, {"full", DamageInCompression::full}},
               "Whether damage weakens a bond in compression; full adds the contact spring as the bond goes.")
-      .real("friction_coefficient", material.friction_coefficient, Dimension::ratio, Range::between(0.0, 10.0), "mu of contacts.")
+      .real("friction_coefficient", material.friction_coefficient, Dimension::ratio, Range::between(0.0, 10.0),
+            "mu of contacts.")
       .real("viscous_rate", material.viscous_rate, Dimension::ratio, Range::between(0.0, 2.0),
             "beta of contacts: damping 2 beta sqrt(k_n m_eff).")
       .real("density", material.density, Dimension::density, Range::positive(), "Density of the discs.")
       .choice("threshold_scaling", material.threshold_scaling,
-              {{"none", ThresholdScaling::none}, {"strength", ThresholdScaling::strength}, {"toughness", ThresholdScaling::toughness}},
-              "Critical displacements for another disc size: unchanged, ~ <d> (same strength), ~ sqrt(<d>) (same toughness).")
+              {{"none", ThresholdScaling::none},
+               {"strength", ThresholdScaling::strength},
+               {"toughness", ThresholdScaling::toughness}},
+              "Critical displacements for another disc size: unchanged, ~ <d> (same strength), ~ sqrt(<d>) (same "
+              "toughness).")
       .real("reference_mean_diameter", material.reference_mean_diameter, Dimension::length, Range::positive(),
             "The <d> that the critical displacements are stated for.");
   NoiseOptions& noise = options.noise;
   schema.section("noise", "Factor on both thresholds of a bond, taken at its midpoint.")
-      .choice("kind", noise.kind, {{"none", NoiseKind::none}, {"perlin", NoiseKind::perlin}, {"weibull", NoiseKind::weibull}},
+      .choice("kind", noise.kind,
+              {{"none", NoiseKind::none}, {"perlin", NoiseKind::perlin}, {"weibull", NoiseKind::weibull}},
               "none; Perlin's improved noise, periodic over the cell; Weibull, independent per bond.")
-      .real("length", noise.length, Dimension::length, Range::positive(), "Perlin: lattice length l (rounded so that it divides the cell).")
-      .real("amplitude", noise.amplitude, Dimension::none, {0.0, 2.0, false, true}, "Perlin: Delta in 1 + Delta (noise - 1/2).")
+      .real("length", noise.length, Dimension::length, Range::positive(),
+            "Perlin: lattice length l (rounded so that it divides the cell).")
+      .real("amplitude", noise.amplitude, Dimension::none, {0.0, 2.0, false, true},
+            "Perlin: Delta in 1 + Delta (noise - 1/2).")
       .real("std", noise.deviation, Dimension::ratio, Range::between(0.0, 2.0),
             "Perlin: wanted standard deviation of the factor instead of amplitude (0: use amplitude).")
       .real("weibull_modulus", noise.weibull_modulus, Dimension::none, {0.5, 1000.0, false, false},
@@ -57,23 +69,32 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Wave transits of the block before the first peak, from its estimated modulus and peak strain.");
   DynamicsOptions& dynamics = options.dynamics;
   schema.section("dynamics", "Integration and damping.")
-      .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true}, "Local damping coefficient, per component.")
+      .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
+            "Local damping coefficient, per component.")
       .choice("mass", dynamics.mass, {{"uniform_step", MassScaling::uniform_step}, {"physical", MassScaling::physical}},
-              "uniform_step: masses and inertias scaled to one common critical step, total mass kept; physical for wave problems.")
-      .real("step_factor", dynamics.step_factor, Dimension::ratio, {0.0, 0.95, true, false}, "Time step over the critical one.")
+              "uniform_step: masses and inertias scaled to one common critical step, total mass kept; physical for "
+              "wave problems.")
+      .real("step_factor", dynamics.step_factor, Dimension::ratio, {0.0, 0.95, true, false},
+            "Time step over the critical one.")
       .choice("kernel", dynamics.kernel, {{"openmp", KernelChoice::openmp}, {"reference", KernelChoice::reference}},
               "openmp: vectorised, all threads; reference: plain and sequential, the oracle.");
   MeasureOptions& measures = options.measures;
   schema.section("measures", "What is read from the curve.")
-      .real("plateau_start", measures.plateau_start, Dimension::ratio, Range::between(0.0, 0.9), "Start of the plateau window.")
-      .real("plateau_end", measures.plateau_end, Dimension::ratio, Range::between(0.0, 0.9), "End of the plateau window.");
+      .real("plateau_start", measures.plateau_start, Dimension::ratio, Range::between(0.0, 0.9),
+            "Start of the plateau window.")
+      .real("plateau_end", measures.plateau_end, Dimension::ratio, Range::between(0.0, 0.9),
+            "End of the plateau window.");
   OutputOptions& output = options.output;
   schema.section("output", "What a run file holds.")
-      .choice("frames", output.frames, {{"none", FrameChoice::none}, {"few", FrameChoice::few}, {"all", FrameChoice::all}},
+      .choice("frames", output.frames,
+              {{"none", FrameChoice::none}, {"few", FrameChoice::few}, {"all", FrameChoice::all}},
               "none; few: start, first peak, every 10 % and the end; all: every 1 % beside those.")
-      .real_list("frame_strains", output.frame_strains, Dimension::ratio, Range::between(0.0, 0.9), "Strains of frames instead of `frames`.")
-      .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false}, "Strain between history rows.")
-      .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(), "Wall time between checkpoints.");
+      .real_list("frame_strains", output.frame_strains, Dimension::ratio, Range::between(0.0, 0.9),
+                 "Strains of frames instead of `frames`.")
+      .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false},
+            "Strain between history rows.")
+      .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
+            "Wall time between checkpoints.");
 }
 
 void validate(const SolverOptions& options, const io::Schema& schema) {

@@ -1,5 +1,5 @@
-// What is here: every option of the solver as plain structs (SI, metres of depth = 1) and their description to the table of keys.
-// What is not: laws (laws.h), anything that is computed.
+// What is here: every option of the solver as plain structs (SI, metres of depth = 1) and their description to the
+// table of keys. What is not: laws (laws.h), anything that is computed.
 #pragma once
 
 #include <cstdint>
@@ -19,43 +19,44 @@ enum class KernelChoice { reference, openmp };
 
 /// [material]: bonds, contacts, density. Defaults are the paper's Table 1.
 struct MaterialOptions {
-  double horizon = 3.0;                       ///< r_H/<d>
-  double normal_stiffness = 2.195e7;          ///< k_n, N/m
-  double tangential_stiffness = 8.246e6;      ///< k_t, N/m
-  double critical_normal_stretch = 1.529e-6;  ///< delta_n0, m
+  double horizon = 3.0;                            ///< r_H/<d>
+  double normal_stiffness = 2.195e7;               ///< k_n, N/m
+  double tangential_stiffness = 8.246e6;           ///< k_t, N/m
+  double critical_normal_stretch = 1.529e-6;       ///< delta_n0, m
   double critical_shear_displacement = 7.7996e-6;  ///< delta_t0, m
-  double yield_exponent = 4.0;                ///< alpha
-  double rupture_delay = 1.1;                 ///< zeta_max
+  double yield_exponent = 4.0;                     ///< alpha
+  double rupture_delay = 1.1;                      ///< zeta_max
   DamageForm damage_form = DamageForm::linear_damage;
   DamageInCompression damage_in_compression = DamageInCompression::none;
-  double friction_coefficient = 0.4;          ///< mu
-  double viscous_rate = 0.9;                  ///< beta of contacts
-  double density = 2200.0;                    ///< kg/m3 of solid discs
+  double friction_coefficient = 0.4;  ///< mu
+  double viscous_rate = 0.9;          ///< beta of contacts
+  double density = 2200.0;            ///< kg/m3 of solid discs
   ThresholdScaling threshold_scaling = ThresholdScaling::strength;
-  double reference_mean_diameter = 0.5044e-3; ///< the <d> the critical stretches are stated for, m
+  double reference_mean_diameter = 0.5044e-3;  ///< the <d> the critical stretches are stated for, m
 };
 
 /// [noise]: spatial variation of both thresholds.
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::none;
-  double length = 5.04e-3;   ///< l, m
-  double amplitude = 1.8;    ///< Delta
-  double deviation = 0.0;    ///< key `std`: when positive, the wanted standard deviation of the factor instead of `amplitude`
+  double length = 5.04e-3;  ///< l, m
+  double amplitude = 1.8;   ///< Delta
+  double deviation =
+      0.0;  ///< key `std`: when positive, the wanted standard deviation of the factor instead of `amplitude`
   double weibull_modulus = 4.0;
 };
 
 /// [loading]: oedometric compression at constant dH/dt.
 struct LoadingOptions {
-  double until = 0.60;          ///< engineering strain
-  double rate = 0.0;            ///< 1/s; 0: from `transits`
-  double transits = 25.0;       ///< wave transits of the block before the first peak
+  double until = 0.60;     ///< engineering strain
+  double rate = 0.0;       ///< 1/s; 0: from `transits`
+  double transits = 25.0;  ///< wave transits of the block before the first peak
 };
 
 /// [dynamics]
 struct DynamicsOptions {
   double cundall_damping = 0.7;
   MassScaling mass = MassScaling::uniform_step;
-  double step_factor = 0.5;     ///< of the critical step
+  double step_factor = 0.5;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;
 };
 
@@ -82,7 +83,8 @@ struct SolverOptions {
   OutputOptions output;
 };
 
-/// Adds [material], [noise], [loading], [dynamics], [measures], [output]. A noise amplitude that makes a factor <= 0 is caught by validate().
+/// Adds [material], [noise], [loading], [dynamics], [measures], [output]. A noise amplitude that makes a factor <= 0 is
+/// caught by validate().
 void describe(io::Schema& schema, SolverOptions& options);
 
 /// Checks that reach across keys; throws io::InputError with the origin known to `schema`.

@@ -1,4 +1,5 @@
-// What is here: what a compression gives, as plain data: history rows, events, summary. What is not: how it is computed.
+// What is here: what a compression gives, as plain data: history rows, events, summary. What is not: how it is
+// computed.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,10 @@ namespace perfora::solver {
 
 enum class RunStatus { completed, stopped, failed };
 
-/// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per metre of depth.
-/// Stresses are means since the last row; all else is at the row.
+/// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per
+/// metre of depth. Stresses are means since the last row; all else is at the row.
 struct History {
-  std::vector<double> strain_yy;      ///< engineering, compression positive
+  std::vector<double> strain_yy;  ///< engineering, compression positive
   std::vector<double> strain_yy_log;
   std::vector<double> stress_yy, stress_xx, stress_xy, stress_asymmetry;
   std::vector<double> broken_bonds, fragments, contacts;
@@ -48,21 +49,22 @@ struct Summary {
   std::string reason;  ///< "reached strain 0.6", "wall time", "signal", "unstable step", ...
   std::int64_t steps = 0;
   double time_step = 0.0;
-  double rate = 0.0;                 ///< 1/s
+  double rate = 0.0;  ///< 1/s
   double final_strain = 0.0;
   double first_peak_stress = 0.0, first_peak_strain = 0.0;
-  double stress_drop_ratio = 0.0;    ///< smallest row stress after the first peak (before twice its strain + 1 %) over the peak
+  double stress_drop_ratio =
+      0.0;  ///< smallest row stress after the first peak (before twice its strain + 1 %) over the peak
   double plateau_stress = 0.0, plateau_start = 0.0, plateau_end = 0.0;
   double minimum_stress_in_window = 0.0, undulation = 0.0;
   double densification_strain = 0.0, efficiency_strain = 0.0, only_rising_strain = 0.0;
-  double energy_absorbed = 0.0;      ///< external work per reference area up to the end of the plateau window, J/m3
-  double cundall_share = 0.0;        ///< of the external work at the end
+  double energy_absorbed = 0.0;  ///< external work per reference area up to the end of the plateau window, J/m3
+  double cundall_share = 0.0;    ///< of the external work at the end
   std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
   std::int64_t fragments = 0;
   double largest_fragment_fraction = 0.0;  ///< of the solid area
-  double max_overlap_in_run = 0.0;   ///< over <d>
+  double max_overlap_in_run = 0.0;         ///< over <d>
   double energy_residual = 0.0;
-  double stress_asymmetry = 0.0;     ///< max |sigma_xy - sigma_yx| over the run over the peak
+  double stress_asymmetry = 0.0;  ///< max |sigma_xy - sigma_yx| over the run over the peak
   // Validity.
   double transits_before_peak = 0.0;
   double kinetic_ratio_at_peak = 0.0;  ///< kinetic over elastic energy

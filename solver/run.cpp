@@ -25,15 +25,20 @@ volatile std::sig_atomic_t stop_flag = 0;
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double peak_passed_share = 0.8;        // a row below this share of the peak ends the search for the first peak
-constexpr double least_peak_strain = 2e-4;       // rows before that are too close to zero stress to tell a fall
-constexpr double residual_from_strain = 0.002;   // the ledger is judged from here on (issue: after 0.2 % strain)
-constexpr double unstable_overlap = 1.0;         // overlap over <d> at which discs pass through each other: the run has failed
-constexpr std::int64_t steps_between_looks = 64; // at the clock and the stop flag
+constexpr double peak_passed_share =
+    0.8;  // a row below this share of the largest row so far ends the search for the first peak
+constexpr double least_peak_strain = 2e-4;      // rows before that are too close to zero stress to tell a fall
+constexpr double residual_from_strain = 0.002;  // the ledger is judged from here on (issue: after 0.2 % strain)
+constexpr double unstable_overlap = 1.0;  // overlap over <d> at which discs pass through each other: the run has failed
+constexpr std::int64_t steps_between_looks = 64;  // at the clock and the stop flag
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-double porosity_of(const geometry::PerforationLayout& layout) { return 1.0 - layout.solid_area_fraction(); }
+double porosity_of(const geometry::PerforationLayout& layout) {
+  return 1.0 - layout.solid_area_fraction();
+}
 
 double peak_memory_bytes() {
   rusage usage{};
@@ -55,10 +60,11 @@ struct Setup {
 Setup prepare(const RunRequest& request) {
   const SolverOptions& options = request.options;
   Setup s;
-  s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed, request.mean_diameter);
+  s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed,
+                                request.mean_diameter);
   s.masses = make_masses(*request.clipped, s.network, options.material, options.dynamics);
-  s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height, porosity_of(*request.layout),
-                               request.mean_diameter);
+  s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
+                               porosity_of(*request.layout), request.mean_diameter);
   s.rate = options.loading.rate > 0.0 ? options.loading.rate : s.loading.rate;
   // The step is shortened so that a whole number of steps makes a row: rows then sit at exact strains.
   const double interval = options.output.history_interval;
@@ -106,7 +112,10 @@ bool frame_due(const OutputOptions& output, std::int64_t row, std::int64_t rows)
 class Run {
  public:
   explicit Run(const RunRequest& request)
-      : request_(request), setup_(prepare(request)), folder_(request.run_file), original_bonds_(bonds_per_disc(setup_.network, request.clipped->x.size())) {
+      : request_(request),
+        setup_(prepare(request)),
+        folder_(request.run_file),
+        original_bonds_(bonds_per_disc(setup_.network, request.clipped->x.size())) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
     Summary& summary = response_.summary;
     summary.noise_mean = strength.mean;
@@ -115,11 +124,13 @@ class Run {
     summary.noise_max = strength.largest;
     response_.discs = request.clipped->size();
     response_.bonds = setup_.network.size();
-    response_.bonds_per_disc = response_.discs > 0 ? 2.0 * static_cast<double>(response_.bonds) / static_cast<double>(response_.discs) : 0.0;
+    response_.bonds_per_disc =
+        response_.discs > 0 ? 2.0 * static_cast<double>(response_.bonds) / static_cast<double>(response_.discs) : 0.0;
     summary.time_step = setup_.time_step;
     summary.rate = setup_.rate;
     summary.step_margin = critical_step_by_power_iteration(setup_.network, setup_.masses, request.options.material,
-                                                           request.options.dynamics.cundall_damping) / setup_.time_step;
+                                                           request.options.dynamics.cundall_damping) /
+                          setup_.time_step;
     SimulationInput input;
     input.clipped = request.clipped;
     input.network = setup_.network;
@@ -147,6 +158,8 @@ class Run {
     if (writes()) {
       if (request_.resume && folder_.can_resume(request_.provenance.config_toml)) {
         progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
+        for (const double stress : progress_.history.stress_yy)
+          largest_row_stress_ = std::max(largest_row_stress_, stress);
         io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
       } else {
         folder_.start_afresh(request_.provenance.config_toml);
@@ -161,7 +174,10 @@ class Run {
     }
   }
 
-  bool wants_frames() const { return writes() && (request_.options.output.frames != FrameChoice::none || !request_.options.output.frame_strains.empty()); }
+  bool wants_frames() const {
+    return writes() &&
+           (request_.options.output.frames != FrameChoice::none || !request_.options.output.frame_strains.empty());
+  }
 
   void loop() {
     while (progress_.rows < setup_.rows) {
@@ -225,7 +241,8 @@ class Run {
     h.cundall.push_back(energy.cundall);
     simulation_->reset_row();
     if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
-      if (strain > least_peak_strain && stress.yy < peak_passed_share * simulation_->peak_stress()) {
+      largest_row_stress_ = std::max(largest_row_stress_, stress.yy);
+      if (strain > least_peak_strain && stress.yy < peak_passed_share * largest_row_stress_) {
         simulation_->freeze_peak();
         peak_just_passed_ = true;
       } else {
@@ -253,9 +270,11 @@ class Run {
   bool failed() {
     const History& h = progress_.history;
     const double overlap = simulation_->largest_overlap() / request_.mean_diameter;
-    if (std::isfinite(h.stress_yy.back()) && std::isfinite(h.kinetic.back()) && overlap < unstable_overlap) return false;
+    if (std::isfinite(h.stress_yy.back()) && std::isfinite(h.kinetic.back()) && overlap < unstable_overlap)
+      return false;
     response_.summary.status = RunStatus::failed;
-    response_.summary.reason = fmt::format("unstable step: largest overlap {:.3g} <d> at strain {:.4f}", overlap, simulation_->strain());
+    response_.summary.reason =
+        fmt::format("unstable step: largest overlap {:.3g} <d> at strain {:.4f}", overlap, simulation_->strain());
     return true;
   }
 
@@ -279,7 +298,8 @@ class Run {
     s.largest_fragment_fraction = fragments_.largest_fraction;
     s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
     s.energy_residual = energy_residual(h, residual_from_strain);
-    s.stress_asymmetry = simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
+    s.stress_asymmetry =
+        simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
     const double modulus = loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
     const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
     s.transits_before_peak = s.first_peak_strain / setup_.rate * wave_speed / request_.layout->height;
@@ -311,6 +331,7 @@ class Run {
   Response response_;
   Fragments fragments_;
   std::int64_t fragments_at_breaks_ = -1;
+  double largest_row_stress_ = 0.0;
   bool peak_just_passed_ = false;
   Clock::time_point started_, last_checkpoint_;
   std::int64_t first_step_ = 0;
@@ -320,10 +341,16 @@ class Run {
 
 }  // namespace
 
-void request_stop() { stop_flag = 1; }
-bool stop_requested() { return stop_flag != 0; }
+void request_stop() {
+  stop_flag = 1;
+}
+bool stop_requested() {
+  return stop_flag != 0;
+}
 
-Response run_compression(const RunRequest& request) { return Run(request).execute(); }
+Response run_compression(const RunRequest& request) {
+  return Run(request).execute();
+}
 
 RunEstimate estimate_run(const RunRequest& request) {
   const Setup setup = prepare(request);
@@ -333,7 +360,8 @@ RunEstimate estimate_run(const RunRequest& request) {
   e.steps = setup.rows * setup.steps_per_row;
   e.time_step = setup.time_step;
   e.rate = setup.rate;
-  const double discs = static_cast<double>(e.discs), bonds = static_cast<double>(e.bonds), rows = static_cast<double>(setup.rows);
+  const double discs = static_cast<double>(e.discs), bonds = static_cast<double>(e.bonds),
+               rows = static_cast<double>(setup.rows);
   e.memory_bytes = 30e6 + bonds * (2.0 * 192.0 * 1.1 + 50.0 + 88.0) + discs * (250.0 + 12.0 * 2.0 * 40.0);
   e.disk_bytes = bonds * 30.0 + discs * 200.0 + rows * 18.0 * 8.0;
   constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core, docs/performance.md

@@ -15,7 +15,7 @@ namespace perfora::solver {
 
 /// Text written to R.h5 as it is: everything that says where a result came from.
 struct Provenance {
-  std::string config_toml;   ///< resolved configuration
+  std::string config_toml;  ///< resolved configuration
   std::string seeds_json;
   std::string command_line;
   std::string program_version, git_revision, compiler;
@@ -25,18 +25,19 @@ struct Provenance {
 struct Response;
 
 struct RunRequest {
-  const geometry::Packing* clipped = nullptr;      ///< discs to bond (Hilbert order)
+  const geometry::Packing* clipped = nullptr;  ///< discs to bond (Hilbert order)
   const geometry::PerforationLayout* layout = nullptr;
   SolverOptions options;
   std::uint64_t noise_seed = 1;
   int threads = 1;
-  double mean_diameter = 0.0;                      ///< <d> of the size law, m: r_H = horizon x this
-  /// R.h5; empty: nothing is written (a search needs only the response). While the run goes on, closed files grow in R.part/.
+  double mean_diameter = 0.0;  ///< <d> of the size law, m: r_H = horizon x this
+  /// R.h5; empty: nothing is written (a search needs only the response). While the run goes on, closed files grow in
+  /// R.part/.
   std::filesystem::path run_file;
-  bool resume = false;                             ///< go on from R.part/ when it holds a checkpoint of the same configuration
-  const geometry::Packing* periodic = nullptr;     ///< unclipped packing for /packing in R.h5; may be null
+  bool resume = false;  ///< go on from R.part/ when it holds a checkpoint of the same configuration
+  const geometry::Packing* periodic = nullptr;  ///< unclipped packing for /packing in R.h5; may be null
   Provenance provenance;
-  double wall_time_limit = 0.0;                    ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
+  double wall_time_limit = 0.0;  ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
   /// Text for /summary of R.h5, made from the finished response (the JSON of `perfora evaluate --json`). May be empty.
   std::function<std::string(const Response&)> summary_text;
   /// Called at history rows: fraction done and a line with strain, stress, rate. May be empty.
@@ -52,7 +53,8 @@ struct Response {
   double bonds_per_disc = 0.0;  ///< 2 bonds/discs
 };
 
-/// Bonds, compresses, measures, writes. Numerical trouble is summary.status = failed with its reason; bad input throws io::InputError.
+/// Bonds, compresses, measures, writes. Numerical trouble is summary.status = failed with its reason; bad input throws
+/// io::InputError.
 Response run_compression(const RunRequest& request);
 
 /// What a run would take, without running: for `check`.
@@ -63,7 +65,8 @@ struct RunEstimate {
 };
 RunEstimate estimate_run(const RunRequest& request);
 
-/// Asks a running compression in this process to write a checkpoint and stop (async-signal-safe): for SIGTERM and SIGINT handlers.
+/// Asks a running compression in this process to write a checkpoint and stop (async-signal-safe): for SIGTERM and
+/// SIGINT handlers.
 void request_stop();
 bool stop_requested();
 

@@ -28,18 +28,42 @@ std::string without_until(const std::string& config) {
 
 /// Scalars of a simulation in one dataset, in this order; a new field goes to the end.
 std::vector<double> pack(const Simulation::Progress& p) {
-  return {static_cast<double>(p.steps), p.intact, p.broken_in_layout, p.ledger.external_work, p.ledger.damage, p.ledger.friction, p.ledger.viscous,
-          p.ledger.cundall, p.virial.xx, p.virial.xy, p.virial.yx, p.virial.yy, p.row_sum.xx, p.row_sum.xy, p.row_sum.yx, p.row_sum.yy,
-          p.row_steps, p.peak_stress, p.peak_strain, p.peak_frozen, p.largest_overlap, p.largest_asymmetry, p.bond_steps};
+  return {static_cast<double>(p.steps),
+          p.intact,
+          p.broken_in_layout,
+          p.ledger.external_work,
+          p.ledger.damage,
+          p.ledger.friction,
+          p.ledger.viscous,
+          p.ledger.cundall,
+          p.virial.xx,
+          p.virial.xy,
+          p.virial.yx,
+          p.virial.yy,
+          p.row_sum.xx,
+          p.row_sum.xy,
+          p.row_sum.yx,
+          p.row_sum.yy,
+          p.row_steps,
+          p.peak_stress,
+          p.peak_strain,
+          p.peak_frozen,
+          p.largest_overlap,
+          p.largest_asymmetry,
+          p.bond_steps};
 }
 
 Simulation::Progress unpack(const std::vector<double>& v) {
   Simulation::Progress p;
   p.steps = static_cast<std::int64_t>(v.at(0));
-  const std::array<double*, 22> fields = {&p.intact, &p.broken_in_layout, &p.ledger.external_work, &p.ledger.damage, &p.ledger.friction,
-                                          &p.ledger.viscous, &p.ledger.cundall, &p.virial.xx, &p.virial.xy, &p.virial.yx, &p.virial.yy,
-                                          &p.row_sum.xx, &p.row_sum.xy, &p.row_sum.yx, &p.row_sum.yy, &p.row_steps, &p.peak_stress,
-                                          &p.peak_strain, &p.peak_frozen, &p.largest_overlap, &p.largest_asymmetry, &p.bond_steps};
+  const std::array<double*, 22> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
+                                          &p.ledger.damage,  &p.ledger.friction,  &p.ledger.viscous,
+                                          &p.ledger.cundall, &p.virial.xx,        &p.virial.xy,
+                                          &p.virial.yx,      &p.virial.yy,        &p.row_sum.xx,
+                                          &p.row_sum.xy,     &p.row_sum.yx,       &p.row_sum.yy,
+                                          &p.row_steps,      &p.peak_stress,      &p.peak_strain,
+                                          &p.peak_frozen,    &p.largest_overlap,  &p.largest_asymmetry,
+                                          &p.bond_steps};
   for (std::size_t k = 0; k < fields.size(); ++k) *fields[k] = v.at(k + 1);
   return p;
 }
@@ -72,8 +96,8 @@ void write_events(io::Hdf5Writer& file, const std::string& group, const std::vec
 }
 
 std::vector<BreakEvent> read_events(const io::Hdf5Reader& file, const std::string& group) {
-  const auto time = file.doubles(group + "/time"), strain = file.doubles(group + "/strain"), x = file.doubles(group + "/x"),
-             y = file.doubles(group + "/y"), energy = file.doubles(group + "/energy");
+  const auto time = file.doubles(group + "/time"), strain = file.doubles(group + "/strain"),
+             x = file.doubles(group + "/x"), y = file.doubles(group + "/y"), energy = file.doubles(group + "/energy");
   const auto bond = file.int32s(group + "/bond"), i = file.int32s(group + "/i"), j = file.int32s(group + "/j");
   const auto mode = file.uint8s(group + "/mode");
   std::vector<BreakEvent> events(time.size());
@@ -120,7 +144,9 @@ void each_field(Discs& d, const Real& real, const Whole& whole) {
 
 }  // namespace
 
-RunFolder::RunFolder(const std::filesystem::path& run_file) : folder_(run_file) { folder_.replace_extension(".part"); }
+RunFolder::RunFolder(const std::filesystem::path& run_file) : folder_(run_file) {
+  folder_.replace_extension(".part");
+}
 
 void RunFolder::start_afresh(const std::string& config) {
   std::filesystem::remove_all(folder_);
@@ -132,16 +158,22 @@ bool RunFolder::can_resume(const std::string& config) const {
   if (!std::filesystem::exists(checkpoint_file())) return false;
   const std::string found = io::read_file(folder_ / "config.toml");
   if (without_until(found) != without_until(config))
-    throw io::InputError({(folder_ / "config.toml").string(), 0, ""}, "the unfinished run there has another configuration",
-                         "--resume goes on with the same design, seeds and program", "use the same design, or start anew with --force");
+    throw io::InputError(
+        {(folder_ / "config.toml").string(), 0, ""}, "the unfinished run there has another configuration",
+        "--resume goes on with the same design, seeds and program", "use the same design, or start anew with --force");
   return true;
 }
 
-std::filesystem::path RunFolder::frame_file(int number) const { return folder_ / "frames" / fmt::format("{:05d}.h5", number); }
+std::filesystem::path RunFolder::frame_file(int number) const {
+  return folder_ / "frames" / fmt::format("{:05d}.h5", number);
+}
 
-void RunFolder::remove() const { std::filesystem::remove_all(folder_); }
+void RunFolder::remove() const {
+  std::filesystem::remove_all(folder_);
+}
 
-void write_frame(const std::filesystem::path& path, const Simulation& simulation, const std::vector<std::int32_t>& original_bonds) {
+void write_frame(const std::filesystem::path& path, const Simulation& simulation,
+                 const std::vector<std::int32_t>& original_bonds) {
   const BondNetwork& network = simulation.network();
   const DiscState& discs = simulation.discs();
   const auto n = static_cast<std::size_t>(discs.size());
@@ -182,8 +214,11 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
   file.attribute("/", "steps", simulation.steps());
   file.dataset("/progress", pack(s.progress));
   each_field(
-      s.discs, [&](const char* name, const std::vector<double>& field) { file.dataset(std::string("/discs/") + name, field); },
-      [&](const char* name, const std::vector<std::uint64_t>& field) { file.dataset(std::string("/discs/") + name, field); });
+      s.discs,
+      [&](const char* name, const std::vector<double>& field) { file.dataset(std::string("/discs/") + name, field); },
+      [&](const char* name, const std::vector<std::uint64_t>& field) {
+        file.dataset(std::string("/discs/") + name, field);
+      });
   file.dataset("/bonds/damage", s.damage);
   file.dataset("/bonds/state", s.bond_state);
   const NearPairs::Snapshot& near = s.near_pairs;
@@ -196,14 +231,15 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
   file.dataset("/near/viscous_force", near.viscous_force);
   file.dataset("/near/reference_x", near.reference_x);
   file.dataset("/near/reference_y", near.reference_y);
-  file.dataset("/near/reference_cell", std::vector<double>{near.reference_cell.xx, near.reference_cell.xy, near.reference_cell.yy});
+  file.dataset("/near/reference_cell",
+               std::vector<double>{near.reference_cell.xx, near.reference_cell.xy, near.reference_cell.yy});
   file.attribute("/near", "rebuilds", near.rebuilds);
   write_events(file, "/events", s.events);
   file.group("/history");
   for (const History::Column& column : History::columns())
     file.dataset(std::string("/history/") + column.name, progress.history.*column.values, 0, column.units);
-  file.dataset("/run", std::vector<double>{static_cast<double>(progress.rows), static_cast<double>(progress.frames), progress.kinetic_ratio,
-                                           progress.seconds});
+  file.dataset("/run", std::vector<double>{static_cast<double>(progress.rows), static_cast<double>(progress.frames),
+                                           progress.kinetic_ratio, progress.seconds});
   file.commit();
 }
 
@@ -215,8 +251,11 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   Simulation::Snapshot s;
   s.progress = unpack(file.doubles("/progress"));
   each_field(
-      s.discs, [&](const char* name, std::vector<double>& field) { field = file.doubles(std::string("/discs/") + name); },
-      [&](const char* name, std::vector<std::uint64_t>& field) { field = file.uint64s(std::string("/discs/") + name); });
+      s.discs,
+      [&](const char* name, std::vector<double>& field) { field = file.doubles(std::string("/discs/") + name); },
+      [&](const char* name, std::vector<std::uint64_t>& field) {
+        field = file.uint64s(std::string("/discs/") + name);
+      });
   s.damage = file.doubles("/bonds/damage");
   s.bond_state = file.uint8s("/bonds/state");
   if (s.discs.sx.size() != simulation.discs().sx.size() || s.damage.size() != simulation.network().damage.size())
@@ -239,7 +278,8 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   near.rebuilds = file.attribute_int("/near", "rebuilds");
   s.events = read_events(file, "/events");
   RunProgress progress;
-  for (const History::Column& column : History::columns()) progress.history.*column.values = file.doubles(std::string("/history/") + column.name);
+  for (const History::Column& column : History::columns())
+    progress.history.*column.values = file.doubles(std::string("/history/") + column.name);
   const auto run = file.doubles("/run");
   progress.rows = static_cast<std::int64_t>(run.at(0));
   progress.frames = static_cast<int>(run.at(1));
@@ -249,12 +289,14 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   return progress;
 }
 
-void write_run_file(const RunRequest& request, const Simulation& simulation, const RunFolder& folder, const RunProgress& progress,
-                    const Response& response, const std::string& summary) {
+void write_run_file(const RunRequest& request, const Simulation& simulation, const RunFolder& folder,
+                    const RunProgress& progress, const Response& response, const std::string& summary) {
   const BondNetwork& network = simulation.network();
   io::Hdf5Writer file(request.run_file);
   file.attribute("/", "format", std::string("perfora.run/1"));
-  const char* status = response.summary.status == RunStatus::completed ? "completed" : response.summary.status == RunStatus::stopped ? "stopped" : "failed";
+  const char* status = response.summary.status == RunStatus::completed ? "completed"
+                       : response.summary.status == RunStatus::stopped ? "stopped"
+                                                                       : "failed";
   file.attribute("/", "status", std::string(status));
   file.attribute("/", "reason", response.summary.reason);
   file.attribute("/", "program_version", request.provenance.program_version);
@@ -271,7 +313,8 @@ void write_run_file(const RunRequest& request, const Simulation& simulation, con
   file.attribute("/", "mean_diameter", request.mean_diameter);
   write_history(file, "/history", progress.history);
   file.group("/frames");
-  for (int k = 0; k < progress.frames; ++k) file.copy_from(folder.frame_file(k), "/frame", fmt::format("/frames/{:05d}", k));
+  for (int k = 0; k < progress.frames; ++k)
+    file.copy_from(folder.frame_file(k), "/frame", fmt::format("/frames/{:05d}", k));
   write_events(file, "/events", simulation.events());
   file.dataset("/bonds/pairs", pairs_of(network, false), 2);
   file.dataset("/bonds/rest_length", network.rest_length, 0, "m");

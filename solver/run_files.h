@@ -1,4 +1,5 @@
-// What is here: the files of a run: frames and checkpoint in R.part/ while it goes on, R.h5 at its end. What is not: when they are written (run.cpp).
+// What is here: the files of a run: frames and checkpoint in R.part/ while it goes on, R.h5 at its end. What is not:
+// when they are written (run.cpp).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ class RunFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// An empty folder with config.toml; what an earlier run left there is removed.
   void start_afresh(const std::string& config);
-  /// Whether it holds a checkpoint of this configuration (loading.until aside). Throws io::InputError when it holds one of another.
+  /// Whether it holds a checkpoint of this configuration (loading.until aside). Throws io::InputError when it holds one
+  /// of another.
   bool can_resume(const std::string& config) const;
   std::filesystem::path frame_file(int number) const;
   std::filesystem::path checkpoint_file() const { return folder_ / "checkpoint.h5"; }
@@ -29,7 +31,8 @@ class RunFolder {
   std::filesystem::path folder_;
 };
 
-void write_frame(const std::filesystem::path& file, const Simulation& simulation, const std::vector<std::int32_t>& original_bonds);
+void write_frame(const std::filesystem::path& file, const Simulation& simulation,
+                 const std::vector<std::int32_t>& original_bonds);
 
 /// What run.cpp keeps beside the simulation and must find again.
 struct RunProgress {
@@ -45,7 +48,7 @@ void write_checkpoint(const std::filesystem::path& file, const Simulation& simul
 RunProgress read_checkpoint(const std::filesystem::path& file, Simulation& simulation);
 
 /// Assembles R.h5 from the request, the simulation and the frames of the folder.
-void write_run_file(const RunRequest& request, const Simulation& simulation, const RunFolder& folder, const RunProgress& progress,
-                    const Response& response, const std::string& summary);
+void write_run_file(const RunRequest& request, const Simulation& simulation, const RunFolder& folder,
+                    const RunProgress& progress, const Response& response, const std::string& summary);
 
 }  // namespace perfora::solver

@@ -1,4 +1,5 @@
-// What is here: the step. Order: cell, kick and drift (leapfrog form of velocity Verlet), neighbour list, forces with damage and breaks, ledger.
+// What is here: the step. Order: cell, kick and drift (leapfrog form of velocity Verlet), neighbour list, forces with
+// damage and breaks, ledger.
 #include "solver/simulation.h"
 
 #include <algorithm>
@@ -8,19 +9,23 @@
 namespace perfora::solver {
 namespace {
 
-std::size_t at(std::int32_t k) { return static_cast<std::size_t>(k); }
+std::size_t at(std::int32_t k) {
+  return static_cast<std::size_t>(k);
+}
 
-constexpr double skin_share = 0.35;              // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
-constexpr std::int64_t compaction_stride = 1024; // steps between looks at the share of empty slots
-constexpr double compaction_share = 0.02;        // of the intact bonds: then rows are compacted
+constexpr double skin_share = 0.35;  // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
+constexpr std::int64_t compaction_stride = 1024;  // steps between looks at the share of empty slots
+constexpr double compaction_share = 0.02;         // of the intact bonds: then rows are compacted
 
-/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; [C] for the sign of the fluctuating velocity).
+/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; [C] for the sign of the fluctuating
+/// velocity).
 inline double damped(double force, double velocity, double coefficient) {
   const double power = force * velocity;
   return power > 0.0 ? force - coefficient * force : (power < 0.0 ? force + coefficient * force : force);
 }
 
-/// Rotates (c, s) of a half angle by h: exact rotation by 2 atan(q) with q = tan(h/2) to O(h^7); no trigonometric call, no loss of norm.
+/// Rotates (c, s) of a half angle by h: exact rotation by 2 atan(q) with q = tan(h/2) to O(h^7); no trigonometric call,
+/// no loss of norm.
 inline void rotate(double& c, double& s, double h) {
   const double h2 = h * h;
   const double q = 0.5 * h * (1.0 + h2 * (1.0 / 12.0 + h2 / 120.0));
@@ -44,7 +49,8 @@ double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& 
 void DiscState::resize(std::size_t n) {
   sx.resize(n);
   sy.resize(n);
-  for (auto* field : {&vx, &vy, &omega, &angle, &half_sin, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
+  for (auto* field : {&vx, &vy, &omega, &angle, &half_sin, &fx, &fy, &torque, &radius, &mass, &inertia})
+    field->assign(n, 0.0);
   half_cos.assign(n, 1.0);
   record.resize(n);
   record_before.resize(n);
@@ -65,7 +71,8 @@ BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {
 }
 
 ContactLaw make_contact_law(const MaterialOptions& material) {
-  return {material.normal_stiffness, material.tangential_stiffness, material.friction_coefficient, material.viscous_rate};
+  return {material.normal_stiffness, material.tangential_stiffness, material.friction_coefficient,
+          material.viscous_rate};
 }
 
 Simulation::Simulation(SimulationInput input)
@@ -95,8 +102,9 @@ Simulation::Simulation(SimulationInput input)
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
   near_pairs_.rebuild(discs_, now_, network_);
-  backend_ = options_.dynamics.kernel == KernelChoice::reference ? make_reference_backend(bond_law_, contact_law_)
-                                                                 : make_openmp_backend(bond_law_, contact_law_, threads_);
+  backend_ = options_.dynamics.kernel == KernelChoice::reference
+                 ? make_reference_backend(bond_law_, contact_law_)
+                 : make_openmp_backend(bond_law_, contact_law_, threads_);
   backend_->load(network_, discs_);
   broken_.reserve(static_cast<std::size_t>(network_.size()));
   events_.reserve(static_cast<std::size_t>(network_.size()));
@@ -106,7 +114,8 @@ Simulation::Simulation(SimulationInput input)
 
 void Simulation::refresh_records() {
   for (std::int32_t d = 0; d < discs_.size(); ++d)
-    discs_.record[at(d)] = {reduced(discs_.sx[at(d)]), reduced(discs_.sy[at(d)]), discs_.half_cos[at(d)], discs_.half_sin[at(d)]};
+    discs_.record[at(d)] = {reduced(discs_.sx[at(d)]), reduced(discs_.sy[at(d)]), discs_.half_cos[at(d)],
+                            discs_.half_sin[at(d)]};
   discs_.record_before = discs_.record;
 }
 
@@ -125,10 +134,14 @@ void Simulation::kick_and_drift() {
     for (std::int32_t d = chunk * chunk_discs; d < end; ++d) {
       const std::size_t k = at(d);
       const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
-      const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c), torque = damped(discs_.torque[k], w, c);
-      const double nvx = vx + dt * fx / discs_.mass[k], nvy = vy + dt * fy / discs_.mass[k], nw = w + dt * torque / discs_.inertia[k];
+      const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
+                   torque = damped(discs_.torque[k], w, c);
+      const double nvx = vx + dt * fx / discs_.mass[k], nvy = vy + dt * fy / discs_.mass[k],
+                   nw = w + dt * torque / discs_.inertia[k];
       // Work of the damping force in this kick, exact for the kick: force times mean velocity.
-      sums.cundall -= 0.5 * dt * ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
+      sums.cundall -= 0.5 * dt *
+                      ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) +
+                       (torque - discs_.torque[k]) * (w + nw));
       discs_.vx[k] = nvx;
       discs_.vy[k] = nvy;
       discs_.omega[k] = nw;
@@ -160,7 +173,8 @@ void Simulation::step() {
   kick_and_drift();
   if (near_pairs_.outdated(largest_displacement_, now_)) near_pairs_.rebuild(discs_, now_, network_);
   broken_.clear();
-  ForceStep step{discs_, network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_), time_step_, broken_};
+  ForceStep step{discs_,     network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_),
+                 time_step_, broken_};
   account(backend_->forces(step), before_);
   if (!broken_.empty()) record_breaks();
   compact_when_due();
@@ -168,9 +182,11 @@ void Simulation::step() {
 
 void Simulation::account(const StepSums& sums, const CellMatrix& before) {
   Ledger& ledger = progress_.ledger;
-  // Trapezoid of the cell's work over the step, with the virial at both ends: what the pair forces take up through the affine motion.
+  // Trapezoid of the cell's work over the step, with the virial at both ends: what the pair forces take up through the
+  // affine motion.
   const CellMatrix change{now_.xx - before.xx, now_.xy - before.xy, now_.yy - before.yy};
-  ledger.external_work -= 0.5 * (affine_work(progress_.virial, change, before) + affine_work(sums.virial, change, now_));
+  ledger.external_work -=
+      0.5 * (affine_work(progress_.virial, change, before) + affine_work(sums.virial, change, now_));
   ledger.damage += sums.damage;
   ledger.friction += sums.friction;
   ledger.viscous += sums.viscous;
@@ -193,8 +209,9 @@ void Simulation::account(const StepSums& sums, const CellMatrix& before) {
 void Simulation::record_breaks() {
   for (const std::int32_t id : broken_) {
     const std::int32_t i = network_.i[at(id)], j = network_.j[at(id)];
-    const BondKinematics k = kinematics_of(discs_.record[at(i)], discs_.record[at(j)], now_, network_.direction_x[at(id)],
-                                           network_.direction_y[at(id)], network_.rest_length[at(id)]);
+    const BondKinematics k =
+        kinematics_of(discs_.record[at(i)], discs_.record[at(j)], now_, network_.direction_x[at(id)],
+                      network_.direction_y[at(id)], network_.rest_length[at(id)]);
     const auto [x, y] = position(i);
     BreakEvent event;
     event.time = time();
@@ -206,7 +223,8 @@ void Simulation::record_breaks() {
     event.y = y + 0.5 * k.ny * k.length;
     // Mode: which term of phi is larger (model.md, "Measures").
     const double tension = k.delta_n * bond_law_.inverse_critical_normal / network_.strength[at(id)];
-    const double shear = half_integer_power(std::fabs(k.delta_t) * bond_law_.inverse_critical_shear / network_.strength[at(id)], bond_law_.twice_alpha);
+    const double shear = half_integer_power(
+        std::fabs(k.delta_t) * bond_law_.inverse_critical_shear / network_.strength[at(id)], bond_law_.twice_alpha);
     event.mode = tension > shear ? BreakMode::tension : BreakMode::shear;
     const BondPoint point{k.delta_n, k.delta_t, 0.0};
     event.energy = damageable_energy(bond_law_, point, point);
@@ -217,7 +235,8 @@ void Simulation::record_breaks() {
 }
 
 void Simulation::compact_when_due() {
-  if (progress_.steps % compaction_stride != 0 || progress_.broken_in_layout <= compaction_share * progress_.intact) return;
+  if (progress_.steps % compaction_stride != 0 || progress_.broken_in_layout <= compaction_share * progress_.intact)
+    return;
   for (BondState& state : network_.state)
     if (state == BondState::broken) state = BondState::compacted;
   progress_.broken_in_layout = 0.0;
@@ -248,25 +267,31 @@ Ledger Simulation::ledger() const {
   for (std::int32_t d = 0; d < discs_.size(); ++d) {
     const std::size_t k = at(d);
     const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
-    const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c), torque = damped(discs_.torque[k], w, c);
-    const double nvx = vx + half * fx / discs_.mass[k], nvy = vy + half * fy / discs_.mass[k], nw = w + half * torque / discs_.inertia[k];
-    ledger.cundall -= 0.5 * half * ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
+    const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
+                 torque = damped(discs_.torque[k], w, c);
+    const double nvx = vx + half * fx / discs_.mass[k], nvy = vy + half * fy / discs_.mass[k],
+                 nw = w + half * torque / discs_.inertia[k];
+    ledger.cundall -=
+        0.5 * half *
+        ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
     ledger.kinetic += 0.5 * (discs_.mass[k] * (nvx * nvx + nvy * nvy) + discs_.inertia[k] * nw * nw);
   }
   for (std::int64_t b = 0; b < network_.size(); ++b) {
     const auto id = static_cast<std::size_t>(b);
     if (network_.state[id] != BondState::intact) continue;
     const std::size_t i = at(network_.i[id]), j = at(network_.j[id]);
-    const BondKinematics k = kinematics_of(discs_.record[i], discs_.record[j], now_, network_.direction_x[id], network_.direction_y[id],
-                                           network_.rest_length[id]);
+    const BondKinematics k = kinematics_of(discs_.record[i], discs_.record[j], now_, network_.direction_x[id],
+                                           network_.direction_y[id], network_.rest_length[id]);
     const double touch = std::min(discs_.radius[i] + discs_.radius[j], network_.rest_length[id]);
-    ledger.elastic_bonds += bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
+    ledger.elastic_bonds +=
+        bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
   }
   for (std::int32_t i = 0; i < discs_.size(); ++i)
     for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
       const NearSlot& slot = near_pairs_.slots()[at(k)];
       if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b = kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      const BondKinematics b =
+          kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
       const double overlap = std::max(0.0, slot.touch - b.length);
       ledger.elastic_contacts += 0.5 * (contact_law_.normal_stiffness * overlap * overlap +
                                         contact_law_.tangential_stiffness * slot.history.shear * slot.history.shear);
@@ -281,7 +306,8 @@ std::int64_t Simulation::contacts() const {
     for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
       const NearSlot& slot = near_pairs_.slots()[at(k)];
       if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b = kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      const BondKinematics b =
+          kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
       if (b.length < slot.touch) ++count;
     }
   }
@@ -289,7 +315,8 @@ std::int64_t Simulation::contacts() const {
 }
 
 std::pair<double, double> Simulation::position(std::int32_t disc) const {
-  const double sx = static_cast<double>(discs_.sx[at(disc)] >> 11) * 0x1p-53, sy = static_cast<double>(discs_.sy[at(disc)] >> 11) * 0x1p-53;
+  const double sx = static_cast<double>(discs_.sx[at(disc)] >> 11) * 0x1p-53,
+               sy = static_cast<double>(discs_.sy[at(disc)] >> 11) * 0x1p-53;
   double x = now_.xx * sx + now_.xy * sy;
   const double y = now_.yy * sy;
   x -= now_.xx * std::floor(x / now_.xx);

@@ -1,4 +1,5 @@
-// What is here: Simulation, the time loop of discs in the cell: kick, drift, forces, ledger. What is not: files, measures, stopping (run.h).
+// What is here: Simulation, the time loop of discs in the cell: kick, drift, forces, ledger. What is not: files,
+// measures, stopping (run.h).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace perfora::solver {
 
-/// Energies, J per metre of depth. Work and dissipation since the start, each summed from its own force; the rest as they are now.
+/// Energies, J per metre of depth. Work and dissipation since the start, each summed from its own force; the rest as
+/// they are now.
 struct Ledger {
   double external_work = 0.0, damage = 0.0, friction = 0.0, viscous = 0.0, cundall = 0.0;
   double elastic_bonds = 0.0, elastic_contacts = 0.0, kinetic = 0.0;
@@ -33,7 +35,8 @@ struct SimulationInput {
   int threads = 1;
 };
 
-/// State and step. One call of step() moves from t to t + dt; nothing in it allocates, throws or writes files. The same bits for any number of threads.
+/// State and step. One call of step() moves from t to t + dt; nothing in it allocates, throws or writes files. The same
+/// bits for any number of threads.
 class Simulation {
  public:
   explicit Simulation(SimulationInput input);

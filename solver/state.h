@@ -1,5 +1,5 @@
-// What is here: the state of all discs as structure of arrays, the compact record the force loops read, sums of one step.
-// What is not: bonds (bond_network.h), near pairs (near_pairs.h), the step (simulation.h).
+// What is here: the state of all discs as structure of arrays, the compact record the force loops read, sums of one
+// step. What is not: bonds (bond_network.h), near pairs (near_pairs.h), the step (simulation.h).
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,15 @@
 
 namespace perfora::solver {
 
-/// What a neighbour needs of a disc, one cache-line half: reduced position in [-1/2, 1/2) and cosine and sine of half its angle.
+/// What a neighbour needs of a disc, one cache-line half: reduced position in [-1/2, 1/2) and cosine and sine of half
+/// its angle.
 struct alignas(32) DiscRecord {
   double x, y, c, s;
 };
 
-/// All discs. Reduced positions are 64-bit fixed point of the cell: differences wrap by themselves (minimum image) and sums do not round.
-/// Velocities are fluctuations v' = dx/dt - L x, held at half steps (leapfrog form of velocity Verlet).
+/// All discs. Reduced positions are 64-bit fixed point of the cell: differences wrap by themselves (minimum image) and
+/// sums do not round. Velocities are fluctuations v' = dx/dt - L x, held at half steps (leapfrog form of velocity
+/// Verlet).
 struct DiscState {
   std::vector<std::uint64_t> sx, sy;
   std::vector<double> vx, vy, omega;       ///< m/s, rad/s
@@ -28,7 +30,9 @@ struct DiscState {
 };
 
 /// Reduced coordinate in [-1/2, 1/2) of a fixed-point one.
-inline double reduced(std::uint64_t s) { return static_cast<double>(static_cast<std::int64_t>(s)) * 0x1p-64; }
+inline double reduced(std::uint64_t s) {
+  return static_cast<double>(static_cast<std::int64_t>(s)) * 0x1p-64;
+}
 /// Fixed-point coordinate of a reduced one in [-1/2, 1/2] or [0, 1).
 inline std::uint64_t fixed_point(double s) {
   if (s >= 0.5) s -= 1.0;

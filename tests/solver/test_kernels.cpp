@@ -1,0 +1,268 @@
+// Force backends: the reference against closed forms on one bond, the others against the reference on one fixture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/solver/kernel_fixture.h"
+
+namespace perfora::solver {
+namespace {
+
+using test::KernelCase;
+using test::two_discs;
+
+constexpr double l0 = 1e-3, k_n = 2.195e7, k_t = 8.246e6, dn0 = 1.529e-6, dt0 = 7.7996e-6;
+constexpr double tolerance = 1e-6;  // asked of the reference; positions in the cell are exact to 1e-19 of it, so the
+                                    // closed forms hold far better
+
+std::unique_ptr<ForceBackend> reference(const KernelCase& c) {
+  return make_reference_backend(c.bond, c.contact);
+}
+
+// Pure tension: f = k_n (1-D) delta, D = (delta/delta0 - 1)/(zeta_max - 1) beyond delta0; force on disc 0 towards
+// disc 1.
+TEST(ReferenceKernel, PureTension) {
+  for (const double zeta : {0.3, 0.99, 1.02, 1.07, 1.095}) {
+    KernelCase c = two_discs(l0);
+    c.place(1, 0.005 + l0 + zeta * dn0, 0.005);
+    c.move_done();
+    c.evaluate(*reference(c));
+    const double damage = zeta > 1.0 ? (zeta - 1.0) / 0.1 : 0.0;
+    const double f = k_n * (1.0 - damage) * zeta * dn0;
+    EXPECT_NEAR(c.discs.fx[0], f, tolerance * k_n * dn0);
+    EXPECT_NEAR(c.discs.fx[1], -f, tolerance * k_n * dn0);
+    EXPECT_NEAR(c.discs.fy[0], 0.0, tolerance * k_n * dn0);
+    EXPECT_NEAR(c.network.damage[0], damage, tolerance);
+  }
+}
+
+// Pure shear: |r| held, both discs rotated by theta: delta_t = -l0 sin(theta); f_t = (1-D) k_t delta_t; torque on each
+// f_t l0 cos(theta)/2; force f_t along t.
+TEST(ReferenceKernel, PureShearByRotation) {
+  for (const double zeta : {0.2, 0.98, 1.03, 1.08}) {
+    KernelCase c = two_discs(l0);
+    const double theta = std::asin(zeta * dt0 / l0);
+    c.discs.angle = {theta, theta};
+    c.move_done();
+    c.evaluate(*reference(c));
+    const double damage = zeta > 1.0 ? (zeta - 1.0) / 0.1 : 0.0;
+    const double f_t = -(1.0 - damage) * k_t * zeta * dt0;
+    EXPECT_NEAR(c.network.damage[0], damage, tolerance);
+    EXPECT_NEAR(c.discs.torque[0], 0.5 * f_t * l0 * std::cos(theta), tolerance * k_t * dt0 * l0);
+    EXPECT_NEAR(c.discs.torque[1], c.discs.torque[0], 1e-15);
+    EXPECT_NEAR(c.discs.fx[0], f_t * -std::sin(theta), tolerance * k_t * dt0);
+    EXPECT_NEAR(c.discs.fy[0], f_t * std::cos(theta), tolerance * k_t * dt0);
+  }
+}
+
+// Compression-shear and mixed, alpha = 2 so that zeta has a closed form: s = (-a + sqrt(a^2 + 4 b^2))/(2 b^2), zeta =
+// 1/s.
+TEST(ReferenceKernel, CompressionShearAndMixed) {
+  for (const double a : {-2.0, -0.5, 0.3, 0.7})
+    for (const double wanted : {0.9, 1.01, 1.05, 1.09, 1.2}) {
+      KernelCase c = two_discs(l0);
+      c.bond.twice_alpha = 4;
+      // b that puts (a, b) on zeta = wanted: (b/zeta)^2 = 1 - a/zeta.
+      const double b = wanted * std::sqrt(1.0 - a / wanted);
+      const double length = l0 + a * dn0;
+      const double theta = std::asin(b * dt0 / length);
+      c.place(1, 0.005 + length, 0.005);
+      c.discs.angle = {theta, theta};
+      c.move_done();
+      const StepSums sums = c.evaluate(*reference(c));
+      const double damage = wanted <= 1.0 ? 0.0 : wanted >= 1.1 ? 1.0 : (wanted - 1.0) / 0.1;
+      EXPECT_NEAR(c.network.damage[0], damage, tolerance * 10) << "d zeta/d delta is amplified by 1/(zeta_max - 1)";
+      if (damage >= 1.0) {
+        EXPECT_EQ(c.broken.size(), 1u);
+        EXPECT_GT(sums.damage, -1e-18);
+        continue;
+      }
+      const double f_n = k_n * (a > 0.0 ? 1.0 - damage : 1.0) * a * dn0;
+      EXPECT_NEAR(c.discs.fx[0], f_n + (1.0 - damage) * k_t * b * dt0 * std::sin(theta), 10 * tolerance * k_t * dt0);
+    }
+}
+
+// Unloading and reloading at the kernel: D stays, force on the secant.
+TEST(ReferenceKernel, UnloadingReloading) {
+  KernelCase c = two_discs(l0);
+  const auto backend = reference(c);
+  const auto stretch = [&](double zeta) {
+    c.place(1, 0.005 + l0 + zeta * dn0, 0.005);
+    c.move_done();
+    c.evaluate(*backend);
+    return c.discs.fx[0] / (k_n * dn0);
+  };
+  EXPECT_NEAR(stretch(1.05), 0.5 * 1.05, tolerance);
+  EXPECT_NEAR(stretch(0.4), 0.5 * 0.4, tolerance);
+  EXPECT_NEAR(stretch(-0.4), -0.4, tolerance);
+  EXPECT_NEAR(stretch(1.04), 0.5 * 1.04, tolerance);
+  EXPECT_NEAR(stretch(1.08), 0.2 * 1.08, tolerance);
+  EXPECT_NEAR(stretch(1.2), 0.0, tolerance);
+}
+
+// Rigid rotation of a pair by 100 rad, and far beyond 2 pi in the wrap, makes no force (model.md: everything is even
+// under e -> -e).
+TEST(ReferenceKernel, RigidRotationMakesNoForce) {
+  for (const double theta : {0.1, 1.0, std::numbers::pi, 2.0 * std::numbers::pi, 10.0, 100.0, -100.0}) {
+    KernelCase c = two_discs(l0);
+    c.place(1, 0.005 + l0 * std::cos(theta), 0.005 + l0 * std::sin(theta));
+    c.discs.angle = {theta, theta};
+    c.move_done();
+    c.evaluate(*reference(c));
+    const double rounding = 1e-9 * k_n * dn0;  // 100 rad in double carries 1e-14 rad, times l0 over delta0: 1e-11
+    EXPECT_NEAR(c.discs.fx[0], 0.0, rounding);
+    EXPECT_NEAR(c.discs.fy[0], 0.0, rounding);
+    EXPECT_NEAR(c.discs.torque[0], 0.0, rounding * l0);
+    EXPECT_EQ(c.network.damage[0], 0.0);
+  }
+}
+
+// One disc turned by 2 pi more than the other is the same state: e -> -e.
+TEST(ReferenceKernel, WrappingOneDiscIsHarmless) {
+  KernelCase c = two_discs(l0), d = two_discs(l0);
+  c.discs.angle = {0.004, 0.002};
+  d.discs.angle = {0.004 + 2.0 * std::numbers::pi, 0.002};
+  for (KernelCase* k : {&c, &d}) {
+    k->place(1, 0.005 + l0 + 0.5e-6, 0.005 + 2e-6);
+    k->move_done();
+    k->evaluate(*reference(*k));
+  }
+  EXPECT_NEAR(c.discs.fx[0], d.discs.fx[0], 1e-9);
+  EXPECT_NEAR(c.discs.fy[0], d.discs.fy[0], 1e-9);
+  EXPECT_NEAR(c.discs.torque[0], d.discs.torque[0], 1e-12);
+}
+
+// F = -dU/dr by central differences of positions and angles on a whole random network (no yielding: shares of the
+// threshold only). Step h = 1e-11 m over displacements of 1e-7: difference error < 1e-4 relative of the largest force.
+TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
+  SolverOptions options;
+  options.dynamics.kernel = KernelChoice::reference;
+  const geometry::Packing packing = test::jittered_packing(8, 0.5e-3, 4);
+  const auto energy_of = [&](const std::vector<double>& dx, const std::vector<double>& dy,
+                             const std::vector<double>& angle) {
+    double energy = 0.0;
+    const BondNetwork net = make_bond_network(packing, test::no_holes(packing), options.material, {}, 1, 0.5e-3);
+    const BondLaw law = test::paper_bond_law();
+    for (std::size_t b = 0; b < net.i.size(); ++b) {
+      const auto i = static_cast<std::size_t>(net.i[b]), j = static_cast<std::size_t>(net.j[b]);
+      const double rx = net.rest_length[b] * net.direction_x[b] + dx[j] - dx[i],
+                   ry = net.rest_length[b] * net.direction_y[b] + dy[j] - dy[i];
+      const double theta = 0.5 * (angle[i] + angle[j]);
+      const BondKinematics k = bond_kinematics(rx, ry, net.direction_x[b], net.direction_y[b], net.rest_length[b],
+                                               std::cos(theta), std::sin(theta));
+      energy += bond_energy(law, {k.delta_n, k.delta_t, 0.0}, 0.0);
+    }
+    return energy;
+  };
+  const std::size_t n = packing.x.size();
+  test::Uniform u(9);
+  std::vector<double> dx(n), dy(n), angle(n);
+  for (std::size_t d = 0; d < n; ++d) dx[d] = u(-1e-7, 1e-7), dy[d] = u(-1e-7, 1e-7), angle[d] = u(-1e-4, 1e-4);
+  KernelCase c;
+  c.bond = test::paper_bond_law();
+  c.contact = make_contact_law({});
+  c.cell = c.cell_before = {packing.width, 0.0, packing.height};
+  c.network = make_bond_network(packing, test::no_holes(packing), options.material, {}, 1, 0.5e-3);
+  c.discs.resize(n);
+  c.discs.radius = packing.radius;
+  c.discs.mass.assign(n, 1e-3);
+  c.discs.angle = angle;
+  for (std::size_t d = 0; d < n; ++d) c.place(static_cast<std::int32_t>(d), packing.x[d] + dx[d], packing.y[d] + dy[d]);
+  c.move_done();
+  c.near_pairs.configure(static_cast<std::int32_t>(n), 0.24e-3, 0.1e-3);
+  c.near_pairs.rebuild(c.discs, c.cell, c.network);
+  c.evaluate(*reference(c));
+  double largest = 0.0;
+  for (std::size_t d = 0; d < n; ++d) largest = std::max(largest, std::fabs(c.discs.fx[d]));
+  for (std::size_t d = 0; d < n; d += 7) {
+    const double h = 1e-11;
+    const auto slope = [&](std::vector<double>& field, double step) {
+      const double keep = field[d];
+      field[d] = keep + step;
+      const double up = energy_of(dx, dy, angle);
+      field[d] = keep - step;
+      const double down = energy_of(dx, dy, angle);
+      field[d] = keep;
+      return (up - down) / (2.0 * step);
+    };
+    EXPECT_NEAR(c.discs.fx[d], -slope(dx, h), 1e-4 * largest);
+    EXPECT_NEAR(c.discs.fy[d], -slope(dy, h), 1e-4 * largest);
+    EXPECT_NEAR(c.discs.torque[d], -slope(angle, h / 0.5e-3), 1e-4 * largest * 0.5e-3);
+  }
+}
+
+/// Every backend against the reference: the same cases. Tolerance: both are double; sums of some 25 terms in another
+/// order differ by a few 1e-15 of the largest term, and 1/|r| times against division adds as much.
+struct Option {
+  const char* name;
+  BondLaw law;
+  double share;
+  double lean;
+};
+
+std::vector<Option> options() {
+  std::vector<Option> list;
+  const BondLaw paper = test::paper_bond_law();
+  list.push_back({"elastic", paper, 0.2, 0.0});
+  list.push_back({"yielding", paper, 1.5, 0.0});
+  list.push_back({"sheared_cell", paper, 1.5, 0.2});
+  BondLaw other = paper;
+  other.twice_alpha = 5;
+  other.damage_form = DamageForm::linear_force;
+  other.rupture_delay = 2.0;
+  list.push_back({"alpha_2.5_linear_force", other, 1.5, 0.0});
+  other = paper;
+  other.damage_in_compression = DamageInCompression::full;
+  list.push_back({"full_damage", other, 1.5, 0.0});
+  other = paper;
+  other.rupture_delay = 1.0;
+  list.push_back({"no_delay", other, 1.2, 0.0});
+  return list;
+}
+
+TEST(Backends, OpenmpAgreesWithTheReferenceBondByBond) {
+  for (const Option& option : options())
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      KernelCase a = test::random_case(seed, option.share, option.law, option.lean);
+      KernelCase b = test::random_case(seed, option.share, option.law, option.lean);
+      const auto oracle = make_reference_backend(a.bond, a.contact);
+      const auto tested = make_openmp_backend(b.bond, b.contact, 2);
+      tested->load(b.network, b.discs);
+      for (int repeat = 0; repeat < 3; ++repeat) {  // the second pass sees the damage and breaks of the first
+        const StepSums s = a.evaluate(*oracle), t = b.evaluate(*tested);
+        std::sort(a.broken.begin(), a.broken.end());
+        std::sort(b.broken.begin(), b.broken.end());
+        ASSERT_EQ(a.broken, b.broken) << option.name;
+        double largest = 0.0;
+        for (std::size_t d = 0; d < a.discs.fx.size(); ++d) largest = std::max(largest, std::fabs(a.discs.fx[d]));
+        ASSERT_GT(largest, 0.0);
+        const double close = 1e-11 * std::max(largest, 1.0);
+        for (std::size_t d = 0; d < a.discs.fx.size(); ++d) {
+          ASSERT_NEAR(a.discs.fx[d], b.discs.fx[d], close) << option.name << " disc " << d;
+          ASSERT_NEAR(a.discs.fy[d], b.discs.fy[d], close) << option.name;
+          ASSERT_NEAR(a.discs.torque[d], b.discs.torque[d], close * 1e-3) << option.name;
+        }
+        for (std::size_t k = 0; k < a.network.damage.size(); ++k) {
+          ASSERT_NEAR(a.network.damage[k], b.network.damage[k], 1e-8)
+              << option.name;  // 1/(zeta_max-1) and 1/delta0 amplify 1e-19 m
+          ASSERT_EQ(a.network.state[k], b.network.state[k]) << option.name;
+        }
+        const double scale = std::fabs(s.virial.xx) + std::fabs(s.virial.yy) + std::fabs(s.virial.xy);
+        EXPECT_NEAR(s.virial.xx, t.virial.xx, 1e-11 * scale);
+        EXPECT_NEAR(s.virial.xy, t.virial.xy, 1e-11 * scale);
+        EXPECT_NEAR(s.virial.yx, t.virial.yx, 1e-11 * scale);
+        EXPECT_NEAR(s.virial.yy, t.virial.yy, 1e-11 * scale);
+        EXPECT_NEAR(s.damage, t.damage, 1e-9 * std::fabs(s.damage) + 1e-18);
+        EXPECT_NEAR(s.friction, t.friction, 1e-9 * std::fabs(s.friction) + 1e-15);
+        EXPECT_NEAR(s.viscous, t.viscous, 1e-9 * std::fabs(s.viscous) + 1e-15);
+        EXPECT_NEAR(s.largest_overlap, t.largest_overlap, 1e-16);
+        if (option.share > 1.0 && repeat == 0) {
+          EXPECT_FALSE(a.broken.empty()) << option.name;
+        }
+      }
+    }
+}
+
+}  // namespace
+}  // namespace perfora::solver
