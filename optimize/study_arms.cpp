@@ -82,7 +82,10 @@ Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) 
   if (low > high) refuse_empty_bounds(study, entry, low, high);
   Axis axis{key.full_name(), {}};
   for (auto value = static_cast<std::int64_t>(low); value <= static_cast<std::int64_t>(high); ++value) {
-    axis.values.push_back({value, entry.value.line});
+    io::Value item;
+    item.data = value;
+    item.line = entry.value.line;
+    axis.values.push_back(item);
     if (axis.values.size() > most_arms) throw io::InputError(origin_in(study, "variables", entry), "far too many arms", fmt::format("at most {}", most_arms), "narrow the range");
   }
   return axis;
