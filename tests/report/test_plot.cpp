@@ -1,0 +1,245 @@
+// What is here: pictures are drawn whole, in every kind of file, fast, with the right pixels in the right places.
+// What is not: whether they are beautiful.
+#include <cairo.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "io/error.h"
+#include "io/journal.h"
+#include "report/block_picture.h"
+#include "report/chart.h"
+#include "report/plot.h"
+#include "report/plot_study.h"
+#include "report/search_panel.h"
+#include "synthetic_run.h"
+
+namespace perfora::report {
+namespace {
+
+using testing::fresh_folder;
+using testing::make_run;
+using testing::SyntheticRun;
+
+struct Image {
+  explicit Image(const std::filesystem::path& path) : surface(cairo_image_surface_create_from_png(path.c_str())) {}
+  ~Image() { cairo_surface_destroy(surface); }
+  Image(const Image&) = delete;
+  Image& operator=(const Image&) = delete;
+  int width() const { return cairo_image_surface_get_width(surface); }
+  int height() const { return cairo_image_surface_get_height(surface); }
+  /// 0xrrggbb
+  unsigned at(int x, int y) const {
+    const unsigned char* row = cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
+    return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffffu;
+  }
+  cairo_surface_t* surface;
+};
+
+// 1, 2, 5 times powers of ten: by hand.
+TEST(Ticks, AreRound) {
+  EXPECT_THAT(nice_ticks(0.0, 60.0, 6), ::testing::ElementsAre(0, 10, 20, 30, 40, 50, 60));
+  EXPECT_THAT(tick_texts(nice_ticks(0.0, 0.7, 7)),
+              ::testing::ElementsAre("0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"));
+  EXPECT_THAT(tick_texts(nice_ticks(-0.03, 0.05, 4)), ::testing::ElementsAre("-0.02", "0.00", "0.02", "0.04"));
+  EXPECT_THAT(decade_ticks(0.004, 2.0),
+              ::testing::ElementsAre(::testing::DoubleEq(0.01), ::testing::DoubleEq(0.1), ::testing::DoubleEq(1.0)));
+  EXPECT_TRUE(nice_ticks(1.0, 1.0, 5).empty());
+}
+
+class TicksOfRanges : public ::testing::TestWithParam<unsigned> {};
+TEST_P(TicksOfRanges, LieWithinAndAreNotTooMany) {
+  const double low = std::sin(GetParam()) * std::pow(10.0, static_cast<int>(GetParam() % 13) - 6);
+  const double high =
+      low + std::pow(10.0, static_cast<int>(GetParam() % 7) - 3) * (1.0 + std::abs(std::cos(GetParam())));
+  const std::vector<double> ticks = nice_ticks(low, high, 6);
+  ASSERT_GE(ticks.size(), 2u);
+  EXPECT_LE(ticks.size(), 13u);
+  const double slack = 1e-6 * (high - low);
+  for (double tick : ticks) {
+    EXPECT_GE(tick, low - slack);
+    EXPECT_LE(tick, high + slack);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, TicksOfRanges, ::testing::Range(1u, 60u));
+
+TEST(Numbers, AreWrittenForPeople) {
+  EXPECT_EQ(with_thousands(36607), "36,607");
+  EXPECT_EQ(with_thousands(-1234567), "-1,234,567");
+  EXPECT_EQ(with_thousands(999), "999");
+  EXPECT_EQ(short_number(0.0250), "0.0250");
+  EXPECT_EQ(short_number(123.4), "123");
+  EXPECT_EQ(short_number(5044.0, 3), "5044");
+  EXPECT_EQ(short_number(3e-7), "3e-07");
+}
+
+// Two discs of fragments 1 and 2 side by side must not share a colour; fragment 0 has none; crumbs have theirs.
+TEST(FragmentColours, DifferWhereFragmentsTouch) {
+  Frame frame;
+  frame.info.h_xx = frame.info.h_yy = 0.1;
+  std::vector<double> radius;
+  const auto add = [&](double x, double y, std::int32_t fragment) {
+    frame.position.insert(frame.position.end(), {x, y});
+    frame.fragment.push_back(fragment);
+    radius.push_back(0.5e-3);
+  };
+  for (int k = 0; k < 50; ++k) add(0.01 + 1e-3 * (k % 10), 0.05 + 1e-3 * (k / 10), 0);
+  // A chequer of 5 x 5 fragments of 3 x 3 discs each.
+  for (int k = 0; k < 225; ++k) add(0.05 + 1e-3 * (k % 15), 0.05 + 1e-3 * (k / 15), 1 + (k % 15) / 3 + 5 * (k / 45));
+  add(0.09, 0.09, 26);
+  const std::vector<int> colour = colour_fragments(frame, radius, 5);
+  ASSERT_EQ(colour.size(), 27u);
+  EXPECT_EQ(colour[0], main_colour);
+  EXPECT_EQ(colour[26], dust_colour);
+  for (std::size_t row = 0; row < 5; ++row)
+    for (std::size_t column = 0; column < 5; ++column) {
+      const std::size_t here = 1 + column + 5 * row;
+      if (column < 4) {
+        EXPECT_NE(colour[here], colour[here + 1]);
+      }
+      if (row < 4) {
+        EXPECT_NE(colour[here], colour[here + 5]);
+      }
+    }
+}
+
+// A cell of 10 x 10 mm drawn on 100 x 100 pixels: one disc at the corner shows in all four corners (periodic), y points
+// up.
+TEST(Block, PeriodicImagesAndDirections) {
+  const auto path = fresh_folder("block") / "b.png";
+  BlockPicture block;
+  block.h_xx = block.h_yy = 0.01;
+  block.x = {0.0, 0.005};
+  block.y = {0.0, 0.0075};
+  block.radius = {1e-3, 1e-3};
+  block.colour = {hex(0xff0000), hex(0x0000ff)};
+  block.growth = {0.0, 0.0};
+  Canvas canvas(path, 120.0, 120.0);
+  draw_block(canvas, {10.0, 10.0, 100.0, 100.0}, block);
+  canvas.write();
+  const Image image(path);
+  for (const auto& [x, y] : {std::pair(14, 14), std::pair(105, 14), std::pair(14, 105), std::pair(105, 105)})
+    EXPECT_EQ(image.at(x, y), 0xff0000u) << x << ' ' << y;
+  EXPECT_EQ(image.at(60, 35), 0x0000ffu);  // 7.5 mm up is 75 pixels above the lower rim
+  EXPECT_EQ(image.at(60, 85), 0xffffffu);
+  EXPECT_EQ(image.at(3, 3), 0xffffffu);  // nothing outside the cell
+}
+
+TEST(Block, KeepsItsShape) {
+  BlockPicture block;
+  block.h_xx = 0.15;
+  block.h_yy = 0.06;
+  const Box box = fit_block(block, {100.0, 50.0, 300.0, 300.0}, 0.0);
+  EXPECT_DOUBLE_EQ(box.width, 300.0);
+  EXPECT_DOUBLE_EQ(box.height, 120.0);
+  EXPECT_DOUBLE_EQ(box.y, 50.0);
+}
+
+const SyntheticRun& small_run() {
+  static const SyntheticRun run = make_run(0.05, 2, 1e-3, 0.6);
+  return run;
+}
+
+TEST(PlotRun, WritesEveryKindOfPicture) {
+  const auto folder = fresh_folder("plot");
+  write_run(small_run(), folder / "R.h5");
+  for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
+    plot_run(folder / "R.h5", folder / name, {.title = "", .target_stress = 0.04e6});
+    EXPECT_GT(std::filesystem::file_size(folder / name), 10'000u) << name;
+  }
+  const Image image(folder / "a.png");
+  EXPECT_EQ(image.width(), 1600);
+  EXPECT_EQ(image.height(), 1000);
+  EXPECT_TRUE(io::read_file(folder / "a.pdf").starts_with("%PDF"));
+  EXPECT_TRUE(io::read_file(folder / "a.svg").starts_with("<?xml"));
+}
+
+TEST(PlotRun, RefusesOtherExtensions) {
+  const auto folder = fresh_folder("extension");
+  write_run(small_run(), folder / "R.h5");
+  for (const char* name : {"a.jpg", "a"}) {
+    try {
+      plot_run(folder / "R.h5", folder / name);
+      ADD_FAILURE();
+    } catch (const io::InputError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(".png, .svg or .pdf"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+}
+
+TEST(PlotRun, TakesRunsThatEndedEarlyOrHaveNoFrames) {
+  const auto folder = fresh_folder("early");
+  for (double until : {0.0, 0.0005, 0.005, 0.05, 0.3}) {
+    SyntheticRun run = make_run(0.05, 2, 2e-3, until);
+    if (until < 0.009) run.run.summary["first_peak_strain"] = run.run.summary["first_peak_stress"] = nullptr;
+    write_run(run, folder / "R.h5");
+    plot_run(folder / "R.h5", folder / "R.png");
+    EXPECT_EQ(Image(folder / "R.png").width(), 1600);
+  }
+  SyntheticRun run = make_run(0.05, 2, 2e-3, 0.3);
+  run.frames.clear();
+  run.run.summary = nlohmann::json::object();
+  write_run(run, folder / "R.h5");
+  plot_run(folder / "R.h5", folder / "R.png");
+}
+
+TEST(PlotRun, SnapshotsAreIntactPeakAndLast) {
+  EXPECT_THAT(snapshot_frames(small_run().run), ::testing::ElementsAre(0, 1, 7));
+  RunResult run;
+  EXPECT_TRUE(snapshot_frames(run).empty());
+  run.frames.resize(1);
+  EXPECT_THAT(snapshot_frames(run), ::testing::ElementsAre(0));
+}
+
+// The size of the paper's block (Table 1: 36,607 discs). How long it takes is noted, not judged.
+TEST(PlotRun, TakesTheFullSize) {
+  const SyntheticRun run = make_run(0.15, 6, 0.5044e-3, 0.6);
+  ASSERT_GT(run.run.clipped.size(), 30'000);
+  RunPicture picture{&run.run, {}};
+  for (std::size_t k : snapshot_frames(run.run)) picture.snapshots.push_back({"", run.frames[k]});
+  const auto path = fresh_folder("full") / "R.png";
+  const auto begin = std::chrono::steady_clock::now();
+  draw_run(picture, path);
+  RecordProperty("seconds",
+                 std::to_string(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()));
+  EXPECT_EQ(Image(path).width(), 1600);
+}
+
+TEST(PlotPacking, WritesAPicture) {
+  const auto folder = fresh_folder("plot-pack");
+  write_pack(small_run(), folder / "P.h5");
+  plot_packing(folder / "P.h5", folder / "P.png");
+  EXPECT_EQ(Image(folder / "P.png").width(), 1600);
+}
+
+TEST(Study, IncumbentIsTheRunningMinimumOfFeasibleScores) {
+  std::vector<StudyEvaluation> evaluations(6);
+  const double scores[] = {3.0, 1.0, NAN, 2.0, 0.5, 0.7};
+  for (std::size_t k = 0; k < 6; ++k) evaluations[k].score = scores[k];
+  evaluations[1].feasible = false;
+  EXPECT_THAT(incumbent_scores(evaluations), ::testing::ElementsAre(3.0, 3.0, 3.0, 2.0, 0.5, 0.5));
+}
+
+TEST(Study, AnEmptyAndAFullPictureAreDrawn) {
+  const auto folder = fresh_folder("study");
+  plot_study({}, folder / "empty.png");
+  StudyPicture picture;
+  picture.title = "Study";
+  for (int k = 1; k <= 30; ++k)
+    picture.evaluations.push_back({k, "arm " + std::to_string(k % 12), {1.0}, k % 7 ? 10.0 / k : NAN, k % 5 != 0});
+  picture.best_number = 29;
+  picture.best.push_back({small_run().run.column("strain_yy"), small_run().run.column("stress_yy")});
+  picture.start.push_back({{}, {}});
+  picture.best_layout = picture.start_layout = small_run().run.layout;
+  picture.best_plateau = 0.025e6;
+  picture.target = 0.03e6;
+  picture.facts = {{"diameter", "18.2 mm", "20 mm"}};
+  plot_study(picture, folder / "full.png");
+  EXPECT_EQ(Image(folder / "full.png").height(), 1000);
+}
+
+}  // namespace
+}  // namespace perfora::report
