@@ -50,8 +50,8 @@ Packing import_packing(const std::filesystem::path& csv, double width, double he
 /// Removes the discs that a perforation takes away and sorts the rest along a Hilbert curve (neighbours in space become neighbours in memory).
 Packing clip_packing(const Packing& packing, const PerforationLayout& layout, ClipRule rule);
 
-/// Wall measured between the clipped discs (model.md: wider than the exact wall): the smallest distance, over pairs of holes with periodic images, left
-/// between the two voids as the discs border them. Infinite without holes.
+/// Wall measured between the clipped discs (model.md: wider than the exact wall): the thinnest wall between the voids, where the void of a hole is
+/// the largest circle about its centre that no disc enters. Infinite without holes.
 double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout& layout);
 
 /// Largest overlap, contacts, rattlers of a periodic packing as it stands.
