@@ -144,14 +144,17 @@ void add_row(CsvTable& table, const Layout& layout, const std::vector<std::strin
 
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
   constexpr std::size_t largest_file = std::size_t{1} << 30;
-  const std::string text = read_file(path, largest_file);
-  const std::string file = path.string();
+  return parse_csv(read_file(path, largest_file), path.string(), wanted, maximum_rows);
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
+                   std::size_t maximum_rows) {
   CsvTable table;
   table.columns.resize(wanted.size());
   Lines lines(text);
   std::optional<Layout> layout;
   while (lines.next()) {
-    const Origin origin{file, lines.number(), ""};
+    const Origin origin{name, lines.number(), ""};
     if (!layout) {
       layout = layout_of(fields_of(lines.line()), wanted, origin);
       if (layout->header) continue;
@@ -161,7 +164,7 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::stri
     add_row(table, *layout, wanted, lines, origin);
   }
   if (table.rows() == 0)
-    throw InputError({file, 0, ""}, "holds no rows of numbers", fmt::format("columns {} are wanted", joined(wanted)),
+    throw InputError({name, 0, ""}, "holds no rows of numbers", fmt::format("columns {} are wanted", joined(wanted)),
                      "check the path");
   return table;
 }

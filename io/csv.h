@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace perfora::io {
@@ -21,5 +22,8 @@ struct CsvTable {
 /// (SI). Throws InputError with file and line for a missing or empty file, a missing column, a wrong number of values,
 /// anything that is not a finite number, or more than `maximum_rows` rows.
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows);
+/// The same from text; `name` stands for the file in messages.
+CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
+                   std::size_t maximum_rows);
 
 }  // namespace perfora::io

@@ -91,10 +91,11 @@ std::string terminal_output_of(const Code& code) {
   ::dup2(kept, STDERR_FILENO);
   ::close(kept);
   ::close(terminal);
-  std::string output(100000, '\0');
-  ::fcntl(master, F_SETFL, O_NONBLOCK);
-  const ssize_t got = ::read(master, output.data(), output.size());
-  output.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  std::string output;
+  char block[4096];
+  // Once the terminal is closed, what is left comes out and then an error.
+  for (ssize_t got = 0; (got = ::read(master, block, sizeof block)) > 0;)
+    output.append(block, static_cast<std::size_t>(got));
   ::close(master);
   return output;
 }

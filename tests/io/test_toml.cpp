@@ -56,6 +56,8 @@ TEST(Toml, SyntaxErrorsNameTheLine) {
   EXPECT_THAT(error_of("[a]\nb = 20 mm\n"), AllOf(StartsWith("a.toml:2: "), HasSubstr("need quotes")));
   EXPECT_THAT(error_of("[a]\nb = \"x\n"), StartsWith("a.toml:2: "));
   EXPECT_THAT(error_of("[a\n"), StartsWith("a.toml:1: "));
+  EXPECT_THAT(error_of("= 1\n"), StartsWith("a.toml:1: "));
+  EXPECT_THAT(error_of("[.a]\n"), StartsWith("a.toml:1: "));
   EXPECT_THAT(error_of("a = 1e400\n"), StartsWith("a.toml:1: "));
   EXPECT_THAT(error_of("a = 99999999999999999999\n"), StartsWith("a.toml:1: "));
   EXPECT_THAT(error_of("a = \"\xff\"\n"), StartsWith("a.toml:1: "));
