@@ -1,0 +1,88 @@
+// What is here: clipping by both rules against brute force, the order it leaves, and walls between clipped discs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "geometry/layout.h"
+#include "geometry/make_packing.h"
+#include "geometry/random.h"
+
+namespace perfora::geometry {
+namespace {
+
+/// Discs at random places: clipping asks nothing of a packing.
+Packing random_discs(int count, std::uint64_t seed) {
+  Packing packing;
+  packing.width = 0.15;
+  packing.height = 0.10;
+  for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(count); ++k) {
+    const auto u = uniform_pair(seed, RandomStream::disc_place, k);
+    packing.x.push_back(u[0] * packing.width);
+    packing.y.push_back(u[1] * packing.height);
+    packing.radius.push_back(1e-4 + 4e-4 * uniform_pair(seed, RandomStream::disc_size, k)[0]);
+  }
+  return packing;
+}
+
+double distance_to_edge(const Packing& packing, std::size_t i, const Perforation& hole) {
+  return std::hypot(std::remainder(packing.x[i] - hole.x, packing.width),
+                    std::remainder(packing.y[i] - hole.y, packing.height)) -
+         0.5 * hole.diameter;
+}
+
+TEST(ClipPacking, BothRulesAgreeWithBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Packing packing = random_discs(2000, seed);
+    PerforationLayout layout{packing.width, packing.height, {}};
+    for (std::uint64_t k = 0; k < 3 * seed; ++k) {
+      const auto u = uniform_pair(seed, RandomStream::hole_place, k);
+      layout.perforations.push_back(
+          {u[0] * 0.15, u[1] * 0.10, 1e-3 + 0.02 * uniform_pair(seed, RandomStream::hole_jitter, k)[0]});
+    }
+    for (ClipRule rule : {ClipRule::centre, ClipRule::whole}) {
+      std::set<std::pair<double, double>> left;
+      for (std::size_t i = 0; i < packing.x.size(); ++i) {
+        bool keep = true;
+        for (const Perforation& hole : layout.perforations)
+          keep = keep && distance_to_edge(packing, i, hole) >= (rule == ClipRule::whole ? packing.radius[i] : 0.0);
+        if (keep) left.emplace(packing.x[i], packing.y[i]);
+      }
+      const Packing clipped = clip_packing(packing, layout, rule);
+      ASSERT_EQ(static_cast<std::size_t>(clipped.size()), left.size());
+      for (std::size_t i = 0; i < clipped.x.size(); ++i) EXPECT_TRUE(left.contains({clipped.x[i], clipped.y[i]}));
+    }
+  }
+}
+
+TEST(ClipPacking, NeighboursInSpaceBecomeNeighboursInMemory) {
+  const Packing packing = random_discs(4000, 3);
+  const Packing sorted = clip_packing(packing, {packing.width, packing.height, {}}, ClipRule::centre);
+  ASSERT_EQ(sorted.size(), packing.size());
+  const double spacing = std::sqrt(packing.width * packing.height / packing.size());
+  double steps = 0.0;
+  for (std::size_t i = 1; i < sorted.x.size(); ++i)
+    steps += std::hypot(sorted.x[i] - sorted.x[i - 1], sorted.y[i] - sorted.y[i - 1]);
+  // A Hilbert curve steps by about one spacing; an unsorted list would step by about half the cell, 30 spacings.
+  EXPECT_LT(steps / sorted.size(), 2.0 * spacing);
+}
+
+TEST(ThinnestWallDiscretised, MeasuresBetweenTheCirclesThatDiscsLeaveFree) {
+  // Two holes of 20 mm, 50 mm apart; discs of radius 0.5 mm ring them with centres at 10.2 mm: voids of radius 9.7 mm.
+  const PerforationLayout layout{0.15, 0.10, {{0.03, 0.05, 0.02}, {0.08, 0.05, 0.02}}};
+  Packing ring;
+  ring.width = 0.15;
+  ring.height = 0.10;
+  for (const Perforation& hole : layout.perforations)
+    for (int k = 0; k < 60; ++k) {
+      ring.x.push_back(hole.x + 0.0102 * std::cos(2.0 * std::numbers::pi * k / 60));
+      ring.y.push_back(hole.y + 0.0102 * std::sin(2.0 * std::numbers::pi * k / 60));
+      ring.radius.push_back(0.0005);
+    }
+  EXPECT_NEAR(thinnest_wall_discretised(ring, layout), 0.05 - 2 * 0.0097, 1e-12);
+  EXPECT_TRUE(std::isinf(thinnest_wall_discretised(ring, {0.15, 0.10, {}})));
+}
+
+}  // namespace
+}  // namespace perfora::geometry
