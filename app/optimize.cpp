@@ -1,5 +1,6 @@
-// What is here: `perfora optimize`: the search of a study file carried out in a folder by worker processes, then the best design's run file and pictures.
-// What is not: the search (optimize/driver.h), its folder (optimize/study_run.h), drawing (report/).
+// What is here: `perfora optimize`: the search of a study file carried out in a folder by worker processes, then the
+// best design's run file and pictures. What is not: the search (optimize/driver.h), its folder (optimize/study_run.h),
+// drawing (report/).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,9 +50,11 @@ optimize::StudyRunOptions run_options(const OptimizeFlags& flags, const optimize
   const int threads = std::max(1, flags.common.thread_count() / workers);
   options.make_executor = [workers, threads] {
     optimize::ChildOptions children;
-    children.command = {fs::read_symlink("/proc/self/exe").string(), "worker", "--quiet", "--threads", std::to_string(threads)};
+    children.command = {fs::read_symlink("/proc/self/exe").string(), "worker", "--quiet", "--threads",
+                        std::to_string(threads)};
     children.workers = workers;
-    io::log_info(fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", threads, threads == 1 ? "" : "s"));
+    io::log_info(
+        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", threads, threads == 1 ? "" : "s"));
     return optimize::make_child_executor(std::move(children));
   };
   return options;
@@ -59,9 +62,11 @@ optimize::StudyRunOptions run_options(const OptimizeFlags& flags, const optimize
 
 void announce(const optimize::Study& study) {
   log_warnings(study.warnings);
-  for (const optimize::Arm& arm : study.arms) io::log_info(fmt::format("arm {}: {} candidates, {}", arm.name, arm.maxeval, study.keys.algorithm));
-  io::log_info(fmt::format("target {} over strain {:g} to {:g}; {} replicate{} a candidate", stress_text(study.target.plateau_stress),
-                           study.target.window[0], study.target.window[1], study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
+  for (const optimize::Arm& arm : study.arms)
+    io::log_info(fmt::format("arm {}: {} candidates, {}", arm.name, arm.maxeval, study.keys.algorithm));
+  io::log_info(fmt::format("target {} over strain {:g} to {:g}; {} replicate{} a candidate",
+                           stress_text(study.target.plateau_stress), study.target.window[0], study.target.window[1],
+                           study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
 }
 
 /// Whether the run file there is of this very design.
@@ -69,7 +74,8 @@ bool is_run_of(const fs::path& run_file, const optimize::DesignFile& design) {
   return io::Hdf5Reader(run_file).text("/config") == design.schema().to_toml();
 }
 
-/// The best design once more (replicate 0) with its frames: best.h5, its CSV and XDMF. The search itself keeps coarse curves only.
+/// The best design once more (replicate 0) with its frames: best.h5, its CSV and XDMF. The search itself keeps coarse
+/// curves only.
 solver::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) {
   const optimize::DesignFile design = optimize::design_of(run.study(), *run.plan().best);
   const fs::path run_file = run.options().folder / "best.h5";
@@ -135,11 +141,14 @@ void add_facts(report::StudyPicture& picture, const optimize::StudyRun& run) {
                              optimize::value_text(schema.find(choice.key)->get())});
   for (std::size_t k = 0; k < study.variables.size(); ++k) {
     const auto& variable = study.variables[k];
-    picture.facts.push_back({variable.key.substr(variable.key.find('.') + 1), optimize::readable(best.values[k], variable.dimension),
+    picture.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
+                             optimize::readable(best.values[k], variable.dimension),
                              optimize::readable(start.values[k], variable.dimension)});
   }
-  picture.facts.push_back({"thinnest wall", length_text(best.layout.thinnest_wall), length_text(start.layout.thinnest_wall)});
-  picture.facts.push_back({"porosity", fmt::format("{:.3g}", best.layout.porosity), fmt::format("{:.3g}", start.layout.porosity)});
+  picture.facts.push_back(
+      {"thinnest wall", length_text(best.layout.thinnest_wall), length_text(start.layout.thinnest_wall)});
+  picture.facts.push_back(
+      {"porosity", fmt::format("{:.3g}", best.layout.porosity), fmt::format("{:.3g}", start.layout.porosity)});
   const optimize::Score& start_score = run.plan().start.detail;
   picture.facts.push_back({"score", fmt::format("{:.3g}", run.plan().best_score.value),
                            start_score.valid ? fmt::format("{:.3g}", start_score.value) : ""});
@@ -150,8 +159,9 @@ report::StudyPicture picture_of(optimize::StudyRun& run) {
   const optimize::Plan& plan = run.plan();
   report::StudyPicture picture;
   picture.title = study.file.stem().string();
-  picture.subtitle = fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
-                                 study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
+  picture.subtitle =
+      fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
+                  study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
   picture.target = study.target.plateau_stress;
   picture.window_start = study.target.window[0];
   picture.window_end = study.target.window[1];
@@ -188,11 +198,12 @@ void draw(optimize::StudyRun& run) {
 
 std::string finals_text(const optimize::Finals& finals) {
   if (finals.pairs == 0) return "best and start were not compared on fresh seeds\n";
-  std::string text = fmt::format("On {} fresh seeds: plateau {} (std {}), start {} (std {})\n", finals.pairs, stress_text(finals.best.plateau_mean),
-                                 stress_text(finals.best.plateau_std), stress_text(finals.start.plateau_mean),
-                                 stress_text(finals.start.plateau_std));
+  std::string text = fmt::format("On {} fresh seeds: plateau {} (std {}), start {} (std {})\n", finals.pairs,
+                                 stress_text(finals.best.plateau_mean), stress_text(finals.best.plateau_std),
+                                 stress_text(finals.start.plateau_mean), stress_text(finals.start.plateau_std));
   if (finals.pairs < 2) return text;
-  return text + fmt::format("Paired gain in score over the start: {:.4g} +- {:.2g} (standard error): {}\n", finals.gain, finals.gain_error,
+  return text + fmt::format("Paired gain in score over the start: {:.4g} +- {:.2g} (standard error): {}\n", finals.gain,
+                            finals.gain_error,
                             finals.significant ? "more than two standard errors"
                                                : "not more than two standard errors, so it may be chance");
 }
@@ -201,7 +212,8 @@ void print_result(const OptimizeFlags& flags, optimize::StudyRun& run) {
   const auto record = optimize::to_json(run);
   if (flags.common.json) return print_json(record);
   std::string text = summary_text(record);
-  if (run.plan().best) text += fmt::format("Best: {}, score {:.4g}\n", run.plan().best->label, run.plan().best_score.value);
+  if (run.plan().best)
+    text += fmt::format("Best: {}, score {:.4g}\n", run.plan().best->label, run.plan().best_score.value);
   if (run.plan().finished && run.plan().best) text += finals_text(run.plan().finals);
   print_text(text);
 }
@@ -223,7 +235,8 @@ int optimize_study(const OptimizeFlags& flags) {
   if (run.plan().best) draw(run);
   print_result(flags, run);
   if (status == solver::RunStatus::stopped)
-    io::log_warning(fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
+    io::log_warning(
+        fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
   else
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{})", options.folder.string(),
                              run.plan().best ? ", best.toml, pictures study.png and best.png" : ""));
@@ -236,12 +249,16 @@ void add_optimize(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<OptimizeFlags>();
   CLI::App* command = program.add_subcommand("optimize", "Search for the design that crushes at the wanted stress");
   command->add_option("STUDY", flags->study, "Study file (TOML)")->required();
-  command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")->type_name("DIR");
+  command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")
+      ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Go on with a study that was stopped or killed");
-  command->add_option("--workers", flags->workers, "Evaluations at once, each in a process of its own (default: as the study says, or one a core)")
+  command
+      ->add_option("--workers", flags->workers,
+                   "Evaluations at once, each in a process of its own (default: as the study says, or one a core)")
       ->check(CLI::Range(1, most_workers))
       ->type_name("W");
-  command->add_flag("--no-run-file", flags->no_run_file, "Do not run the best design once more for best.h5 and best.png");
+  command->add_flag("--no-run-file", flags->no_run_file,
+                    "Do not run the best design once more for best.h5 and best.png");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();

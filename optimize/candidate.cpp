@@ -1,8 +1,8 @@
 // What is here: candidates worked out from a study. What is not: scores.
 #include "optimize/candidate.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace perfora::optimize {
 namespace {
@@ -10,13 +10,16 @@ namespace {
 /// A design that passes the constraints but is refused all the same counts as this far off.
 constexpr double refused_violation = 1.0;
 
-const Arm* arm_of(const Study& study, int arm) { return arm < 0 ? nullptr : &study.arms[static_cast<std::size_t>(arm)]; }
+const Arm* arm_of(const Study& study, int arm) {
+  return arm < 0 ? nullptr : &study.arms[static_cast<std::size_t>(arm)];
+}
 
 std::string label_of(const Study& study, int arm, std::span<const double> values) {
   std::string label = arm < 0 ? "start" : study.arms[static_cast<std::size_t>(arm)].name;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Variable& variable = study.variables[k];
-    label += fmt::format(", {} {}", variable.key.substr(variable.key.find('.') + 1), readable(values[k], variable.dimension));
+    label += fmt::format(", {} {}", variable.key.substr(variable.key.find('.') + 1),
+                         readable(values[k], variable.dimension));
   }
   return label;
 }
@@ -88,7 +91,8 @@ const Candidate& CandidateBook::start() {
   }
   if (inside)
     for (std::size_t k = 0; k < study_.arms.size(); ++k)
-      if (holds_start(study_, study_.arms[k])) return at(static_cast<int>(k), study_.values_at(study_.point_of(values)));
+      if (holds_start(study_, study_.arms[k]))
+        return at(static_cast<int>(k), study_.values_at(study_.point_of(values)));
   return at(-1, values);
 }
 

@@ -16,14 +16,14 @@ namespace perfora::optimize {
 
 /// One design of the search.
 struct Candidate {
-  int arm = -1;                     ///< index in Study::arms; -1: the start design, where no arm holds it
-  std::vector<double> values;       ///< of the variables, SI
-  std::string label;                ///< "rows=2 columns=2, diameter 16.2 mm"
+  int arm = -1;                ///< index in Study::arms; -1: the start design, where no arm holds it
+  std::vector<double> values;  ///< of the variables, SI
+  std::string label;           ///< "rows=2 columns=2, diameter 16.2 mm"
   LayoutMeasure layout;
-  std::vector<double> limits;       ///< constraint values, kept where <= 0
-  double violation = 0.0;           ///< > 0: costs no simulation
-  std::string problem;              ///< why it cannot be simulated; empty otherwise
-  std::string design_toml;          ///< resolved design
+  std::vector<double> limits;  ///< constraint values, kept where <= 0
+  double violation = 0.0;      ///< > 0: costs no simulation
+  std::string problem;         ///< why it cannot be simulated; empty otherwise
+  std::string design_toml;     ///< resolved design
   double until = 0.0;
 
   Request request(int replicate) const { return {design_toml, replicate, until}; }

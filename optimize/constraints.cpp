@@ -15,7 +15,9 @@ constexpr double largest_value = 1e3;
 constexpr double border = 1e-9;
 constexpr double violation_scale = 1e3;
 
-double bounded(double value) { return std::clamp(value, -largest_value, largest_value); }
+double bounded(double value) {
+  return std::clamp(value, -largest_value, largest_value);
+}
 
 double wanted_wall(const ConstraintKeys& keys, const Design& design) {
   const double horizon = design.solver.material.horizon * design.packing.mean_diameter;
@@ -25,7 +27,8 @@ double wanted_wall(const ConstraintKeys& keys, const Design& design) {
 }  // namespace
 
 void describe(io::Schema& schema, ConstraintKeys& keys) {
-  auto section = schema.section("constraints", "What every candidate must keep; checked on its layout before any simulation.");
+  auto section =
+      schema.section("constraints", "What every candidate must keep; checked on its layout before any simulation.");
   section.real("thinnest_wall", keys.thinnest_wall, io::Dimension::length, io::Range::non_negative(),
                "Smallest wall between perforations; the horizon of the bonds holds as well");
   section.real_list("porosity", keys.porosity, io::Dimension::ratio, io::Range::between(0.0, 1.0),
@@ -47,7 +50,8 @@ LayoutMeasure measure_layout(const DesignFile& design) {
   return measure;
 }
 
-std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFile& design, const LayoutMeasure& measure) {
+std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFile& design,
+                                      const LayoutMeasure& measure) {
   const bool bounded_porosity = keys.porosity.size() == 2;
   if (!measure.placed) return std::vector<double>(bounded_porosity ? 3 : 1, 1.0);
   const double wall = wanted_wall(keys, design.design());
@@ -71,6 +75,8 @@ double violation(std::span<const double> values) {
   return sum;
 }
 
-double violation_score(double violation) { return violation_scale * (1.0 + violation); }
+double violation_score(double violation) {
+  return violation_scale * (1.0 + violation);
+}
 
 }  // namespace perfora::optimize

@@ -13,7 +13,8 @@ namespace perfora::optimize {
 
 /// [constraints] of a study.
 struct ConstraintKeys {
-  double thinnest_wall = 0.0;    ///< m; smallest wall allowed. The horizon of the bonds and layout.minimum_wall hold as well
+  double thinnest_wall =
+      0.0;  ///< m; smallest wall allowed. The horizon of the bonds and layout.minimum_wall hold as well
   std::vector<double> porosity;  ///< lowest and highest share of the cell that the perforations take; empty: any
 };
 
@@ -28,16 +29,19 @@ struct LayoutMeasure {
 };
 LayoutMeasure measure_layout(const DesignFile& design);
 
-/// g, one number a constraint, kept where g <= 0: (wanted wall - wall)/wanted wall; (lowest - porosity)/highest; (porosity - highest)/highest.
-/// The wanted wall is the largest of thinnest_wall, layout.minimum_wall and the horizon (a bond may not span a wall). Always finite, within [-1e3, 1e3];
-/// 1 everywhere when the layout cannot be laid. The number of entries depends on `keys` only.
-std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFile& design, const LayoutMeasure& measure);
+/// g, one number a constraint, kept where g <= 0: (wanted wall - wall)/wanted wall; (lowest - porosity)/highest;
+/// (porosity - highest)/highest. The wanted wall is the largest of thinnest_wall, layout.minimum_wall and the horizon
+/// (a bond may not span a wall). Always finite, within [-1e3, 1e3]; 1 everywhere when the layout cannot be laid. The
+/// number of entries depends on `keys` only.
+std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFile& design,
+                                      const LayoutMeasure& measure);
 std::vector<std::string> constraint_names(const ConstraintKeys& keys);
 
 /// Sum of the positive entries; 0: all are kept. A border is kept up to 1e-9.
 double violation(std::span<const double> values);
 
-/// Score of a candidate that breaks a constraint and so costs no simulation: 1000 (1 + violation), above that of every simulated one.
+/// Score of a candidate that breaks a constraint and so costs no simulation: 1000 (1 + violation), above that of every
+/// simulated one.
 double violation_score(double violation);
 
 }  // namespace perfora::optimize

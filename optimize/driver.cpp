@@ -1,9 +1,9 @@
 // What is here: the search by replay. What is not: NLopt itself (nlopt_search.cpp), the journal.
 #include "optimize/driver.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
 
 #include "optimize/nlopt_search.h"
@@ -39,7 +39,8 @@ struct Driver::View {
   Plan plan;
   std::set<std::string> asked;
 
-  /// The evaluations of a candidate for replicates [first, first + count); empty, with the missing ones added to `wanted`, when some are unknown.
+  /// The evaluations of a candidate for replicates [first, first + count); empty, with the missing ones added to
+  /// `wanted`, when some are unknown.
   std::vector<const Evaluation*> evaluations(const Candidate& candidate, int first, int count) {
     std::vector<const Evaluation*> known;
     for (int replicate = first; replicate < first + count; ++replicate) {
@@ -70,14 +71,16 @@ struct Driver::View {
     return visit;
   }
 
-  /// Own incumbent: NLopt's is not always the best it saw. The first of equals stays; a start outside the search space is no candidate.
+  /// Own incumbent: NLopt's is not always the best it saw. The first of equals stays; a start outside the search space
+  /// is no candidate.
   void consider(const Visit& visit) {
     if (!visit.detail.valid || visit.candidate->arm < 0 || (plan.best && visit.score >= plan.best_score.value)) return;
     plan.best = visit.candidate;
     plan.best_score = visit.detail;
   }
 
-  /// What an algorithm that is given the constraints hears at a point that breaks one: nothing new, the best score so far.
+  /// What an algorithm that is given the constraints hears at a point that breaks one: nothing new, the best score so
+  /// far.
   static double neutral(const Trace& trace) {
     double best = largest_score;
     for (const Visit& visit : trace.visits)
@@ -160,7 +163,8 @@ struct Driver::View {
     if (finals.pairs == 0) return;
     const double n = finals.pairs;
     std::vector<double> gains;
-    for (std::size_t k = 0; k < finals.best_scores.size(); ++k) gains.push_back(finals.start_scores[k] - finals.best_scores[k]);
+    for (std::size_t k = 0; k < finals.best_scores.size(); ++k)
+      gains.push_back(finals.start_scores[k] - finals.best_scores[k]);
     for (const double gain : gains) finals.gain += gain / n;
     if (finals.pairs < 2) return;
     double squares = 0.0;

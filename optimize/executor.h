@@ -1,5 +1,5 @@
-// What is here: what carries requests to evaluations: in this process, or in child processes whose crash costs one evaluation.
-// What is not: which requests (driver.h), the journal (study_run.h).
+// What is here: what carries requests to evaluations: in this process, or in child processes whose crash costs one
+// evaluation. What is not: which requests (driver.h), the journal (study_run.h).
 #pragma once
 
 #include <chrono>
@@ -34,17 +34,20 @@ class Executor {
   virtual void stop() = 0;
 };
 
-/// One evaluation. May throw: an exception becomes an evaluation with status `failed`. Must be thread-safe when there is more than one worker.
+/// One evaluation. May throw: an exception becomes an evaluation with status `failed`. Must be thread-safe when there
+/// is more than one worker.
 using Evaluate = std::function<Evaluation(const Request&)>;
 
-/// Threads of this process. A crash is the end of all of it; for tests, small jobs and callers with an evaluation of their own.
+/// Threads of this process. A crash is the end of all of it; for tests, small jobs and callers with an evaluation of
+/// their own.
 std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers);
 
 struct ChildOptions {
-  std::vector<std::string> command;  ///< program and arguments of a worker: one Request a line on its input, one Evaluation a line on its output
+  std::vector<std::string> command;  ///< program and arguments of a worker: one Request a line on its input, one
+                                     ///< Evaluation a line on its output
   int workers = 1;
-  int attempts = 2;                  ///< a worker that dies, or answers something else, is replaced and asked again this often in all
-  double time_limit = 0.0;           ///< s of wall time an evaluation may take before its worker is killed; 0: none
+  int attempts = 2;  ///< a worker that dies, or answers something else, is replaced and asked again this often in all
+  double time_limit = 0.0;  ///< s of wall time an evaluation may take before its worker is killed; 0: none
 };
 
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.

@@ -1,4 +1,5 @@
-// What is here: evaluations in child processes, one line of JSON each way. What is not: the loop of such a child (app/worker.cpp).
+// What is here: evaluations in child processes, one line of JSON each way. What is not: the loop of such a child
+// (app/worker.cpp).
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -6,12 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <deque>
-#include <fmt/format.h>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -59,7 +60,7 @@ std::string death_text(int status) {
 [[noreturn]] void become_worker(char* const* arguments, int socket, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(cannot_start);  // The parent died before the line above.
-  ::setpgid(0, 0);                                    // Ctrl-C in a terminal is the parent's business.
+  ::setpgid(0, 0);                                   // Ctrl-C in a terminal is the parent's business.
   ::dup2(socket, STDIN_FILENO);
   ::dup2(socket, STDOUT_FILENO);
   ::execvp(arguments[0], arguments);
@@ -101,8 +102,10 @@ class ChildExecutor final : public Executor {
     const auto end = Clock::now() + grace;
     for (Child& child : children_) {
       while (child.pid > 0 && Clock::now() < end) {
-        if (::waitpid(child.pid, nullptr, WNOHANG) == child.pid) child.pid = -1;
-        else std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        if (::waitpid(child.pid, nullptr, WNOHANG) == child.pid)
+          child.pid = -1;
+        else
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
       if (child.pid > 0) reap(child);
       if (child.socket >= 0) ::close(child.socket);
@@ -200,7 +203,8 @@ class ChildExecutor final : public Executor {
       queue_.push_front(std::move(*job));
       return;
     }
-    const std::string reason = fmt::format("{}, {} times in a row", why.empty() ? death_text(status) : why, job->attempts);
+    const std::string reason =
+        fmt::format("{}, {} times in a row", why.empty() ? death_text(status) : why, job->attempts);
     answers_.push_back({job->key, failed_evaluation(job->request, reason), job->attempts, seconds});
   }
 
@@ -229,7 +233,8 @@ class ChildExecutor final : public Executor {
   void check_time(Child& child) {
     if (options_.time_limit <= 0.0 || !child.job) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
-    if (seconds > options_.time_limit) lose(child, fmt::format("the worker took more than {:g} s", options_.time_limit));
+    if (seconds > options_.time_limit)
+      lose(child, fmt::format("the worker took more than {:g} s", options_.time_limit));
   }
 
   void take(Child& child) {

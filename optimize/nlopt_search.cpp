@@ -2,12 +2,12 @@
 // What is not: what a score means.
 #include "optimize/nlopt_search.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cassert>
 #include <cctype>
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 #include <limits>
 #include <nlopt.hpp>
 
@@ -21,13 +21,16 @@ constexpr double after_the_end = 1e6;
 /// Tolerance of the local searches inside MLSL and AUGLAG, in units of the cube: finer than any simulation resolves.
 constexpr double inner_tolerance = 1e-3;
 
-bool starts_with(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
+bool starts_with(const std::string& text, const char* prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
 
 bool one_of(const std::string& name, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
 }
 
-/// GN_ORIG_DIRECT of NLopt 2.7.1 reads memory it never set (and hangs or crashes) when it is stopped within its first division of 2 n + 1 points.
+/// GN_ORIG_DIRECT of NLopt 2.7.1 reads memory it never set (and hangs or crashes) when it is stopped within its first
+/// division of 2 n + 1 points.
 int unstoppable_calls(const SearchOptions& options) {
   if (!starts_with(options.algorithm, "GN_ORIG_DIRECT")) return 0;
   return (2 * options.dimension + 1) * (options.constraints + 1);
@@ -42,8 +45,8 @@ struct Callbacks {
   SearchEnd end;
   bool over = false;
   std::exception_ptr error;
-  std::vector<double> point;         ///< the point asked for last
-  std::vector<double> limits;        ///< constraint values there
+  std::vector<double> point;   ///< the point asked for last
+  std::vector<double> limits;  ///< constraint values there
   bool limits_known = false;
 
   int calls = 0;  ///< of any kind
@@ -129,11 +132,16 @@ double constraint_callback(unsigned n, const double* x, double*, void* data) {
 
 std::string reason_text(nlopt::result result) {
   switch (result) {
-    case nlopt::STOPVAL_REACHED: return "stop_score reached";
-    case nlopt::FTOL_REACHED: return "ftol reached";
-    case nlopt::XTOL_REACHED: return "xtol reached";
-    case nlopt::MAXEVAL_REACHED: return "maxeval reached";
-    default: return "the algorithm found nothing more to do";
+    case nlopt::STOPVAL_REACHED:
+      return "stop_score reached";
+    case nlopt::FTOL_REACHED:
+      return "ftol reached";
+    case nlopt::XTOL_REACHED:
+      return "xtol reached";
+    case nlopt::MAXEVAL_REACHED:
+      return "maxeval reached";
+    default:
+      return "the algorithm found nothing more to do";
   }
 }
 
@@ -206,7 +214,8 @@ const std::vector<std::string>& derivative_free_algorithms() {
     std::vector<std::string> found;
     for (int k = 0; k < nlopt::NUM_ALGORITHMS; ++k) {
       const std::string name = nlopt_algorithm_to_string(static_cast<nlopt_algorithm>(k));
-      const bool there = std::string(nlopt::algorithm_name(static_cast<nlopt::algorithm>(k))).find("NOT COMPILED") == std::string::npos;
+      const bool there = std::string(nlopt::algorithm_name(static_cast<nlopt::algorithm>(k))).find("NOT COMPILED") ==
+                         std::string::npos;
       if ((starts_with(name, "GN_") || starts_with(name, "LN_")) && there && name != "LN_NEWUOA") found.push_back(name);
     }
     return found;
@@ -237,7 +246,9 @@ bool takes_constraints(const std::string& algorithm) {
   return one_of(algorithm, {"GN_ISRES", "LN_COBYLA", "GN_AGS", "GN_ORIG_DIRECT", "GN_ORIG_DIRECT_L", "LN_AUGLAG"});
 }
 
-int smallest_dimension(const std::string& algorithm) { return algorithm == "LN_NEWUOA_BOUND" ? 2 : 1; }
+int smallest_dimension(const std::string& algorithm) {
+  return algorithm == "LN_NEWUOA_BOUND" ? 2 : 1;
+}
 
 int largest_dimension(const std::string& algorithm) {
   return algorithm == "GN_AGS" ? 10 : std::numeric_limits<int>::max();

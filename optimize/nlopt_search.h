@@ -1,5 +1,6 @@
-// What is here: one sequential NLopt search over the unit cube that may meet points nobody has evaluated yet, and which algorithms there are.
-// What is not: designs, scores, the journal (driver.h). nlopt.hpp is included in nlopt_search.cpp only.
+// What is here: one sequential NLopt search over the unit cube that may meet points nobody has evaluated yet, and which
+// algorithms there are. What is not: designs, scores, the journal (driver.h). nlopt.hpp is included in nlopt_search.cpp
+// only.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace perfora::optimize {
 struct SearchOptions {
   std::string algorithm = "GN_DIRECT_L";  ///< as canonical_algorithm() gives it
   int dimension = 1;
-  int maxeval = 1;             ///< points in total; never exceeded, although NLopt's own limit is (by a population, by a sweep of DIRECT)
+  int maxeval =
+      1;  ///< points in total; never exceeded, although NLopt's own limit is (by a population, by a sweep of DIRECT)
   std::uint32_t seed = 1;      ///< of NLopt's generator (thread-local; seeded in the calling thread)
   std::vector<double> start;   ///< first point of local algorithms, in [0, 1]
   double initial_step = 0.25;  ///< of local algorithms, in units of the cube
@@ -23,7 +25,7 @@ struct SearchOptions {
   double xtol = 0.0;           ///< absolute, in units of the cube; 0: off. DIRECT, ISRES and ESCH take no notice of it
   double ftol = 0.0;           ///< absolute, on the score; 0: off
   std::optional<double> stop_score;  ///< ends the search at a score as low as this
-  int constraints = 0;         ///< number of inequality constraints g(x) <= 0 given to NLopt
+  int constraints = 0;               ///< number of inequality constraints g(x) <= 0 given to NLopt
 };
 
 /// The score at a point, or nothing when it is not known yet.
@@ -37,15 +39,17 @@ struct SearchEnd {
   int points = 0;         ///< points asked for, the unknown one included
 };
 
-/// Runs the search from its start until it ends or the objective answers nothing for the first time; after that the objective is not called again,
-/// whatever NLopt still asks. Values that are not finite are a bug of the caller (assert). An exception of the objective or of the constraints ends
-/// the search and is thrown on unchanged. NLopt's own "best" is not returned: it is not always the best it saw.
+/// Runs the search from its start until it ends or the objective answers nothing for the first time; after that the
+/// objective is not called again, whatever NLopt still asks. Values that are not finite are a bug of the caller
+/// (assert). An exception of the objective or of the constraints ends the search and is thrown on unchanged. NLopt's
+/// own "best" is not returned: it is not always the best it saw.
 SearchEnd run_search(const SearchOptions& options, const Objective& objective, const Constraints& constraints = {});
 
 /// Derivative-free algorithms that keep bounds, by NLopt's own names without the prefix "NLOPT_".
 const std::vector<std::string>& derivative_free_algorithms();
 
-/// The name without "NLOPT_" and in capitals when the algorithm can be used here; otherwise empty and `problem` says in one clause why not.
+/// The name without "NLOPT_" and in capitals when the algorithm can be used here; otherwise empty and `problem` says in
+/// one clause why not.
 std::string canonical_algorithm(const std::string& name, std::string& problem);
 
 /// Whether NLopt hands nonlinear inequality constraints to this algorithm.

@@ -23,9 +23,13 @@ Moments moments(const std::vector<double>& values) {
   return result;
 }
 
-double square(double value) { return value * value; }
+double square(double value) {
+  return value * value;
+}
 
-double weighted(double weight, double value) { return weight > 0.0 ? weight * square(value) : 0.0; }
+double weighted(double weight, double value) {
+  return weight > 0.0 ? weight * square(value) : 0.0;
+}
 
 }  // namespace
 
@@ -53,7 +57,8 @@ Score score_of(const TargetKeys& target, std::span<const Evaluation* const> repl
   for (const Evaluation* evaluation : replicates) {
     ++score.replicates;
     if (!usable(*evaluation)) {
-      if (score.failed++ == 0) score.reason = evaluation->reason.empty() ? "no plateau in the window" : evaluation->reason;
+      if (score.failed++ == 0)
+        score.reason = evaluation->reason.empty() ? "no plateau in the window" : evaluation->reason;
       continue;
     }
     plateaus.push_back(evaluation->summary.plateau_stress);

@@ -1,9 +1,10 @@
-// What is here: reading a study file and saying what is wrong with it; designs at a point. What is not: arms (study_arms.cpp).
+// What is here: reading a study file and saying what is wrong with it; designs at a point. What is not: arms
+// (study_arms.cpp).
 #include "optimize/study.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
 
 #include "optimize/nlopt_search.h"
@@ -21,18 +22,23 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.path("design", keys.design, "Design file the search starts from");
   section.text("algorithm", keys.algorithm, "Derivative-free NLopt algorithm, by NLopt's name");
   section.integer("maxeval", keys.maxeval, Range::non_negative(), "Candidates in total, over all arms");
-  section.text("allocation", keys.allocation,
-               "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the share of an arm's bounds that keeps the "
-               "constraints) or a list of numbers");
-  section.integer("replicates", keys.replicates, Range::at_least(1), "Simulations a candidate, each with seeds of its own");
+  section.text(
+      "allocation", keys.allocation,
+      "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the share of an arm's bounds that keeps the "
+      "constraints) or a list of numbers");
+  section.integer("replicates", keys.replicates, Range::at_least(1),
+                  "Simulations a candidate, each with seeds of its own");
   section.integer("final_replicates", keys.final_replicates, Range::non_negative(),
                   "Fresh seeds on which the best and the start design are run again at the end");
-  section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true}, "Strain to run to; 0: as the design says");
+  section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true},
+               "Strain to run to; 0: as the design says");
   section.integer("starts", keys.starts, Range::at_least(1), "Arms that differ only in where a local algorithm begins");
   section.real("initial_step", keys.initial_step, Dimension::ratio, Range{0.0, 1.0, true, false},
                "First step of a local algorithm as a share of the bounds");
-  section.integer("population", keys.population, Range::non_negative(), "Population of CRS2, ISRES, ESCH; 0: NLopt's choice");
-  section.real("xtol", keys.xtol, Dimension::ratio, Range{0.0, 1.0, false, true}, "Stop when steps are smaller; share of the bounds");
+  section.integer("population", keys.population, Range::non_negative(),
+                  "Population of CRS2, ISRES, ESCH; 0: NLopt's choice");
+  section.real("xtol", keys.xtol, Dimension::ratio, Range{0.0, 1.0, false, true},
+               "Stop when steps are smaller; share of the bounds");
   section.real("ftol", keys.ftol, Dimension::none, Range::non_negative(), "Stop when the score changes by less");
   section.real("stop_score", keys.stop_score, Dimension::none, Range::non_negative(),
                "An arm ends at a score as low as this; 0: never");
@@ -43,8 +49,12 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
 }
 
-std::string section_of(std::string_view key) { return std::string(key.substr(0, key.find('.'))); }
-std::string after_section(const std::string& key) { return key.substr(key.find('.') + 1); }
+std::string section_of(std::string_view key) {
+  return std::string(key.substr(0, key.find('.')));
+}
+std::string after_section(const std::string& key) {
+  return key.substr(key.find('.') + 1);
+}
 
 bool belongs_to_study(const std::string& override_text) {
   static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms"};
@@ -88,6 +98,8 @@ struct Reader {
   void take(io::Entry entry, const std::string& source) {
     const std::string section = section_of(entry.key);
     if (section == "variables" || section == "arms") {
+      std::erase_if(entry.key,
+                    [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
       auto& list = section == "arms" ? arms : variables;
       std::erase_if(list, [&](const io::Entry& other) { return other.key == entry.key; });
       list.push_back(std::move(entry));
@@ -109,8 +121,8 @@ struct Reader {
         schema.set_override(text);
     }
     if (study.keys.design.empty())
-      throw io::InputError({path.string(), 0, "study.design"}, "no design is named to start from", "the path of a design file",
-                           "add design = \"quick.toml\" under [study]");
+      throw io::InputError({path.string(), 0, "study.design"}, "no design is named to start from",
+                           "the path of a design file", "add design = \"quick.toml\" under [study]");
     auto start = std::make_shared<DesignFile>(study.keys.design, of_design);
     check_numbers(*start);
     study.warnings = start->validate();
@@ -128,15 +140,15 @@ struct Reader {
     check_algorithms();
     const auto& porosity = study.constraints.porosity;
     if (!porosity.empty() && (porosity.size() != 2 || !(porosity[0] <= porosity[1]) || !(porosity[1] > 0.0)))
-      throw io::InputError(origin("constraints.porosity"), "this is not a range", "[lowest, highest] with 0 <= lowest <= highest",
-                           "write for example porosity = [0.2, 0.4]");
+      throw io::InputError(origin("constraints.porosity"), "this is not a range",
+                           "[lowest, highest] with 0 <= lowest <= highest", "write for example porosity = [0.2, 0.4]");
   }
 
   void set_window(DesignFile& start) {
     const auto& window = study.target.window;
     if (window.size() != 2 || !(window[0] < window[1]))
-      throw io::InputError(origin("target.window"), "this is not a window of strain", "[start, end] with 0 <= start < end < 1",
-                           "write for example window = [0.2, 0.4]");
+      throw io::InputError(origin("target.window"), "this is not a window of strain",
+                           "[start, end] with 0 <= start < end < 1", "write for example window = [0.2, 0.4]");
     auto& solver = start.design().solver;
     solver.measures.plateau_start = window[0];
     solver.measures.plateau_end = window[1];
@@ -176,16 +188,19 @@ struct Reader {
 
   void check_dimension() const {
     const int n = static_cast<int>(study.variables.size());
-    for (const auto& [key, name] : {std::pair{"study.algorithm", study.keys.algorithm}, {"study.refine", study.keys.refine}}) {
+    for (const auto& [key, name] :
+         {std::pair{"study.algorithm", study.keys.algorithm}, {"study.refine", study.keys.refine}}) {
       if (name.empty()) continue;
       if (n < smallest_dimension(name))
-        throw io::InputError(origin(key), fmt::format("{} needs at least {} variables, the study has {}", name,
-                                                      smallest_dimension(name), n),
-                             "", "take another algorithm, such as LN_BOBYQA or LN_SBPLX");
+        throw io::InputError(
+            origin(key),
+            fmt::format("{} needs at least {} variables, the study has {}", name, smallest_dimension(name), n), "",
+            "take another algorithm, such as LN_BOBYQA or LN_SBPLX");
       if (n > largest_dimension(name))
-        throw io::InputError(origin(key), fmt::format("{} takes at most {} variables, the study has {}", name,
-                                                      largest_dimension(name), n),
-                             "", "take another algorithm, such as GN_DIRECT_L");
+        throw io::InputError(
+            origin(key),
+            fmt::format("{} takes at most {} variables, the study has {}", name, largest_dimension(name), n), "",
+            "take another algorithm, such as GN_DIRECT_L");
     }
   }
 
@@ -196,15 +211,19 @@ struct Reader {
     const int n = static_cast<int>(study.variables.size());
     const int population = first_population(study.keys.algorithm, n, study.keys.population);
     if (population >= fewest)
-      warnings.push_back(fmt::format("{} spends its first {} points on a population and has only {} an arm: it will only sample; raise "
-                                     "maxeval or set population",
-                                     study.keys.algorithm, population, fewest));
+      warnings.push_back(fmt::format(
+          "{} spends its first {} points on a population and has only {} an arm: it will only sample; raise "
+          "maxeval or set population",
+          study.keys.algorithm, population, fewest));
     if (fits_models(study.keys.algorithm) && !takes_constraints(study.keys.algorithm))
-      warnings.push_back(fmt::format("{} fits smooth models, which candidates that fail or break a constraint upset; LN_SBPLX and "
-                                     "LN_COBYLA bear them better",
-                                     study.keys.algorithm));
+      warnings.push_back(
+          fmt::format("{} fits smooth models, which candidates that fail or break a constraint upset; LN_SBPLX and "
+                      "LN_COBYLA bear them better",
+                      study.keys.algorithm));
     if (study.keys.replicates == 1)
-      warnings.push_back("one replicate a candidate: the score holds the luck of one packing; final_replicates tells how much of the gain is real");
+      warnings.push_back(
+          "one replicate a candidate: the score holds the luck of one packing; final_replicates tells how much of the "
+          "gain is real");
     if (study.keys.final_replicates < 2)
       warnings.push_back("final_replicates below 2: nothing will say whether the gain exceeds the noise");
   }
@@ -239,9 +258,12 @@ double rounded(double value) {
 
 std::string readable(double value, io::Dimension dimension) {
   switch (dimension) {
-    case io::Dimension::length: return fmt::format("{:.5g} mm", 1e3 * value);
-    case io::Dimension::stress: return fmt::format("{:.4g} MPa", 1e-6 * value);
-    default: return fmt::format("{:.5g}", value);
+    case io::Dimension::length:
+      return fmt::format("{:.5g} mm", 1e3 * value);
+    case io::Dimension::stress:
+      return fmt::format("{:.4g} MPa", 1e-6 * value);
+    default:
+      return fmt::format("{:.5g}", value);
   }
 }
 
@@ -266,7 +288,8 @@ DesignFile Study::design_at(const Arm* arm, std::span<const double> values) cons
   DesignFile made;
   made.design() = start->design();
   if (arm)
-    for (const ArmChoice& choice : arm->choices) made.schema().set(choice.key, choice.value, {file.string(), choice.value.line, choice.key});
+    for (const ArmChoice& choice : arm->choices)
+      made.schema().set(choice.key, choice.value, {file.string(), choice.value.line, choice.key});
   for (std::size_t k = 0; k < values.size(); ++k)
     made.schema().set_number(variables[k].key, values[k], {file.string(), 0, variables[k].key});
   return made;
@@ -282,7 +305,8 @@ std::map<std::string, std::string> Study::resolved() const {
   describe(schema, aim);
   describe(schema, limits);
   for (const io::Key& key : schema.keys())
-    if (key.full_name() != "study.design" && key.full_name() != "study.workers") all[key.full_name()] = value_text(key.get());
+    if (key.full_name() != "study.design" && key.full_name() != "study.workers")
+      all[key.full_name()] = value_text(key.get());
   for (const Variable& variable : variables)
     all["variables." + variable.key] = fmt::format("[{:.17g}, {:.17g}]", variable.low, variable.high);
   std::string names;
@@ -322,7 +346,8 @@ StudyEstimate check_study(const std::filesystem::path& path, const std::vector<s
   StudyEstimate estimate;
   estimate.arms = study.arms;
   estimate.candidates = std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval);
-  estimate.simulations = (estimate.candidates + 1) * study.keys.replicates + 2 * std::int64_t{study.keys.final_replicates};
+  estimate.simulations =
+      (estimate.candidates + 1) * study.keys.replicates + 2 * std::int64_t{study.keys.final_replicates};
   estimate.warnings = study.warnings;
   estimate.start = study.start;
   return estimate;

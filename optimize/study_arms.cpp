@@ -1,9 +1,9 @@
 // What is here: variables and arms of a study. What is not: the file (study.cpp).
 #include "optimize/study_arms.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numeric>
 #include <sstream>
 
@@ -49,9 +49,11 @@ const io::Key& layout_key(const Study& study, const std::string& table, const io
                        nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
 }
 
-const io::ValueList& list_of(const Study& study, const std::string& table, const io::Entry& entry, const std::string& allowed) {
+const io::ValueList& list_of(const Study& study, const std::string& table, const io::Entry& entry,
+                             const std::string& allowed) {
   const auto* list = std::get_if<io::ValueList>(&entry.value.data);
-  if (!list || list->empty()) throw io::InputError(origin_in(study, table, entry), "a list is wanted here", allowed, "");
+  if (!list || list->empty())
+    throw io::InputError(origin_in(study, table, entry), "a list is wanted here", allowed, "");
   return *list;
 }
 
@@ -71,14 +73,16 @@ std::pair<double, double> bounds(const Study& study, const io::Key& key, const i
 }
 
 [[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high) {
-  throw io::InputError(origin_in(study, "variables", entry), fmt::format("nothing lies between the bounds {:g} and {:g}", low, high),
-                       "lowest < highest", "write the smaller one first, or set the key in the design instead");
+  throw io::InputError(origin_in(study, "variables", entry),
+                       fmt::format("nothing lies between the bounds {:g} and {:g}", low, high), "lowest < highest",
+                       "write the smaller one first, or set the key in the design instead");
 }
 
 Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
   const auto [low, high] = bounds(study, key, entry);
   if (low != std::floor(low) || high != std::floor(high))
-    throw io::InputError(origin_in(study, "variables", entry), "the bounds of a whole number must be whole numbers", "[2, 4]", "");
+    throw io::InputError(origin_in(study, "variables", entry), "the bounds of a whole number must be whole numbers",
+                         "[2, 4]", "");
   if (low > high) refuse_empty_bounds(study, entry, low, high);
   Axis axis{key.full_name(), {}};
   for (auto value = static_cast<std::int64_t>(low); value <= static_cast<std::int64_t>(high); ++value) {
@@ -86,7 +90,9 @@ Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) 
     item.data = value;
     item.line = entry.value.line;
     axis.values.push_back(item);
-    if (axis.values.size() > most_arms) throw io::InputError(origin_in(study, "variables", entry), "far too many arms", fmt::format("at most {}", most_arms), "narrow the range");
+    if (axis.values.size() > most_arms)
+      throw io::InputError(origin_in(study, "variables", entry), "far too many arms",
+                           fmt::format("at most {}", most_arms), "narrow the range");
   }
   return axis;
 }
@@ -95,7 +101,8 @@ Axis list_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
   Axis axis{key.full_name(), {}};
   DesignFile scratch;
   scratch.design() = study.start->design();
-  for (const io::Value& value : list_of(study, "arms", entry, "a list of values, such as [2, 3] or [\"square\", \"staggered\"]")) {
+  for (const io::Value& value :
+       list_of(study, "arms", entry, "a list of values, such as [2, 3] or [\"square\", \"staggered\"]")) {
     if (key.type == io::KeyType::real)
       throw io::InputError(origin_in(study, "arms", entry), "arms are whole numbers or names", "",
                            fmt::format("move {} to [variables] with bounds", key.full_name()));
@@ -111,9 +118,11 @@ std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
   std::vector<Axis> axes;
   auto add = [&](Axis axis, const io::Origin& origin) {
     for (const Axis& other : axes)
-      if (other.key == axis.key) throw io::InputError(origin, "this key is enumerated twice", "", "name it in [variables] or in [arms]");
+      if (other.key == axis.key)
+        throw io::InputError(origin, "this key is enumerated twice", "", "name it in [variables] or in [arms]");
     for (const Variable& variable : study.variables)
-      if (variable.key == axis.key) throw io::InputError(origin, "this key is a variable already", "", "name it in one table");
+      if (variable.key == axis.key)
+        throw io::InputError(origin, "this key is a variable already", "", "name it in one table");
     axes.push_back(std::move(axis));
   };
   for (const io::Entry& entry : entries.arms)
@@ -128,7 +137,8 @@ std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
 std::string arm_name(const Arm& arm, int start, int starts) {
   std::string name;
   for (const ArmChoice& choice : arm.choices)
-    name += fmt::format("{}{}={}", name.empty() ? "" : " ", choice.key.substr(choice.key.find('.') + 1), value_name(choice.value));
+    name += fmt::format("{}{}={}", name.empty() ? "" : " ", choice.key.substr(choice.key.find('.') + 1),
+                        value_name(choice.value));
   if (starts > 1) name += fmt::format("{}start={}", name.empty() ? "" : " ", start + 1);
   return name.empty() ? "all" : name;
 }
@@ -177,16 +187,19 @@ std::vector<double> drop_impossible(Study& study) {
     const double share = feasible_share(study, arm);
     if (share < 0.0) {
       const auto middle = study.values_at(std::vector<double>(study.variables.size(), 0.5));
-      study.warnings.push_back(fmt::format("arm {} is left out: {}", arm.name, measure_layout(study.design_at(&arm, middle)).problem));
+      study.warnings.push_back(
+          fmt::format("arm {} is left out: {}", arm.name, measure_layout(study.design_at(&arm, middle)).problem));
       continue;
     }
     if (share == 0.0)
-      study.warnings.push_back(fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
+      study.warnings.push_back(
+          fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
     possible.push_back(arm);
     shares.push_back(share);
   }
   if (possible.empty())
-    throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "", "see the layouts of the design");
+    throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "",
+                         "see the layouts of the design");
   study.arms = std::move(possible);
   return shares;
 }
@@ -205,8 +218,8 @@ std::vector<int> listed(const Study& study, const io::Origin& origin) {
   }
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   if (counts.size() != study.arms.size())
-    throw io::InputError(origin, fmt::format("{} numbers are given for {} arms", counts.size(), study.arms.size()), "one number an arm",
-                         "see `perfora check` for the arms and their order");
+    throw io::InputError(origin, fmt::format("{} numbers are given for {} arms", counts.size(), study.arms.size()),
+                         "one number an arm", "see `perfora check` for the arms and their order");
   if (sum != study.keys.maxeval)
     throw io::InputError(origin, fmt::format("the list adds up to {}, maxeval is {}", sum, study.keys.maxeval), "",
                          "make them agree");
@@ -258,7 +271,8 @@ void make_arms(Study& study, const ArmEntries& entries, const io::Origin& alloca
       study.arms.push_back(std::move(arm));
     }
   if (study.arms.size() > most_arms)
-    throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms), "", "narrow them");
+    throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms),
+                         "", "narrow them");
   const auto shares = drop_impossible(study);
   allocate(study, shares, allocation);
 }
@@ -293,7 +307,8 @@ std::vector<int> share_out(int total, const std::vector<double>& weights) {
   }
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
   for (std::size_t k = 0; given < total; k = (k + 1) % n, ++given) ++counts[order[k]];
   return counts;
 }

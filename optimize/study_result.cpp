@@ -1,8 +1,8 @@
 // What is here: the result files of a study. What is not: the search.
 #include "optimize/study_result.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 #include "io/journal.h"
 #include "optimize/nlopt_search.h"
@@ -12,13 +12,18 @@ namespace {
 
 using nlohmann::json;
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 const char* status_name(solver::RunStatus status) {
   switch (status) {
-    case solver::RunStatus::completed: return "completed";
-    case solver::RunStatus::stopped: return "stopped";
-    default: return "failed";
+    case solver::RunStatus::completed:
+      return "completed";
+    case solver::RunStatus::stopped:
+      return "stopped";
+    default:
+      return "failed";
   }
 }
 
@@ -95,8 +100,12 @@ json performance_json(const StudyRun& run) {
     simd = evaluation.performance.simd.empty() ? simd : evaluation.performance.simd;
     threads = std::max(threads, evaluation.performance.threads);
   }
-  return {{"seconds", run.seconds()},     {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()},
-          {"threads", threads},           {"simd", simd},                                 {"peak_memory", number(memory)}};
+  return {{"seconds", run.seconds()},
+          {"simulated_seconds", run.simulated_seconds()},
+          {"retries", run.retries()},
+          {"threads", threads},
+          {"simd", simd},
+          {"peak_memory", number(memory)}};
 }
 
 /// The plateau of the best design on the most seeds there are: fresh ones where they were run.
@@ -115,11 +124,15 @@ std::string csv_text(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place, const Visit& visit) {
+std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place,
+                     const Visit& visit) {
   std::string line = fmt::format("{},{},{}", stage, csv_text(arm), place);
   for (std::size_t k = 0; k < study.variables.size(); ++k) line += fmt::format(",{:.17g}", visit.candidate->values[k]);
   const bool broken = visit.candidate->violation > 0.0;
-  const char* status = broken ? "breaks a constraint" : !visit.answered ? "open" : visit.detail.valid ? "completed" : "failed";
+  const char* status = broken               ? "breaks a constraint"
+                       : !visit.answered    ? "open"
+                       : visit.detail.valid ? "completed"
+                                            : "failed";
   line += fmt::format(",{},{:.17g}", csv_text(status), visit.candidate->violation);
   auto add = [&](double value, bool known) { line += known ? fmt::format(",{:.17g}", value) : ","; };
   const bool any = visit.detail.replicates > visit.detail.failed;
@@ -167,16 +180,18 @@ std::string best_toml(StudyRun& run) {
   if (!plan.best) return {};
   const Study& study = run.study();
   const json plateau = plateau_json(plan);
-  std::string text = fmt::format("# Best design of {} ({}, {} evaluations): {}\n", study.file.filename().string(), study.keys.algorithm,
-                                 run.answers().size(), plan.best->label);
-  text += fmt::format("# score {:.6g}; plateau {} over strain {:g} to {:g} (mean of {} runs), target {}\n", plan.best_score.value,
-                      readable(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
-                      study.target.window[0], study.target.window[1], plateau.at("count").get<int>(),
-                      readable(study.target.plateau_stress, io::Dimension::stress));
+  std::string text = fmt::format("# Best design of {} ({}, {} evaluations): {}\n", study.file.filename().string(),
+                                 study.keys.algorithm, run.answers().size(), plan.best->label);
+  text += fmt::format(
+      "# score {:.6g}; plateau {} over strain {:g} to {:g} (mean of {} runs), target {}\n", plan.best_score.value,
+      readable(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
+      study.target.window[0], study.target.window[1], plateau.at("count").get<int>(),
+      readable(study.target.plateau_stress, io::Dimension::stress));
   const Finals& finals = plan.finals;
   if (finals.pairs > 1)
-    text += fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (standard error) over the start: {}\n", finals.pairs, finals.gain,
-                        finals.gain_error, finals.significant ? "more than two standard errors" : "not more than two standard errors");
+    text += fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (standard error) over the start: {}\n",
+                        finals.pairs, finals.gain, finals.gain_error,
+                        finals.significant ? "more than two standard errors" : "not more than two standard errors");
   return text + design_of(study, *plan.best).schema().to_toml();
 }
 
@@ -188,7 +203,8 @@ std::string evaluations_csv(StudyRun& run) {
   if (run.plan().start.candidate) text += csv_line(study, "start", "start", 0, run.plan().start);
   for (const Trace& trace : run.plan().traces)
     for (std::size_t k = 0; k < trace.visits.size(); ++k)
-      text += csv_line(study, trace.refine ? "refine" : "search", study.arms[static_cast<std::size_t>(trace.arm)].name, k + 1, trace.visits[k]);
+      text += csv_line(study, trace.refine ? "refine" : "search", study.arms[static_cast<std::size_t>(trace.arm)].name,
+                       k + 1, trace.visits[k]);
   return text;
 }
 

@@ -1,9 +1,9 @@
 // What is here: the loop of a study around its journal. What is not: result files (study_result.cpp).
 #include "optimize/study_run.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
 #include <thread>
 
@@ -20,8 +20,8 @@ constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr double curve_step = 0.005;
 
 /// Everything a study writes into its folder; --force removes these and nothing else.
-constexpr const char* own_files[] = {"journal.jsonl", "result.json", "best.toml", "best.h5", "best.csv", "best.xdmf", "best.part",
-                                     "evaluations.csv", "best.png", "study.png"};
+constexpr const char* own_files[] = {"journal.jsonl", "result.json", "best.toml",       "best.h5",  "best.csv",
+                                     "best.xdmf",     "best.part",   "evaluations.csv", "best.png", "study.png"};
 
 /// Keys that may differ on resume: they only say how far to go, and the points on the way there stay the same.
 bool may_change(const std::string& key) {
@@ -40,17 +40,20 @@ std::string arm_names(const Study& study) {
 json header(const Study& study, const std::string& command_line) {
   auto resolved = study.resolved();
   resolved["arms"] = arm_names(study);
-  return {{"event", "study"},        {"schema", "perfora.study/1"},     {"results_version", results_version},
-          {"resolved", resolved},    {"command_line", command_line},    {"file", study.file.filename().string()}};
+  return {{"event", "study"},     {"schema", "perfora.study/1"},  {"results_version", results_version},
+          {"resolved", resolved}, {"command_line", command_line}, {"file", study.file.filename().string()}};
 }
 
-bool same(const char* event, const json& record) { return record.value("event", "") == event; }
+bool same(const char* event, const json& record) {
+  return record.value("event", "") == event;
+}
 
 void prepare_folder(const StudyRunOptions& options) {
   const auto journal = options.folder / "journal.jsonl";
   std::error_code ignored;
   if (std::filesystem::exists(options.folder, ignored) && !std::filesystem::is_directory(options.folder, ignored))
-    throw io::InputError({options.folder.string(), 0, ""}, "this is a file, and a study needs a folder", "", "name another one with -o");
+    throw io::InputError({options.folder.string(), 0, ""}, "this is a file, and a study needs a folder", "",
+                         "name another one with -o");
   if (options.force && !options.resume)
     for (const char* name : own_files) std::filesystem::remove_all(options.folder / name);
   if (!options.resume && std::filesystem::exists(journal))
@@ -58,11 +61,14 @@ void prepare_folder(const StudyRunOptions& options) {
                          "go on with it by --resume, start over with --force, or name another folder with -o");
   std::filesystem::create_directories(options.folder, ignored);
   if (ignored)
-    throw io::InputError({options.folder.string(), 0, ""}, fmt::format("the folder cannot be made ({})", ignored.message()), "",
+    throw io::InputError({options.folder.string(), 0, ""},
+                         fmt::format("the folder cannot be made ({})", ignored.message()), "",
                          "name another one with -o");
 }
 
-std::string stress_text(double stress) { return std::isfinite(stress) ? readable(stress, io::Dimension::stress) : "none"; }
+std::string stress_text(double stress) {
+  return std::isfinite(stress) ? readable(stress, io::Dimension::stress) : "none";
+}
 
 std::string duration(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
@@ -88,7 +94,8 @@ solver::History coarse_curve(const solver::History& history) {
     stress += history.stress_yy[k];
     ++count;
     const bool last = k + 1 == history.rows();
-    if (!last && std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step)) continue;
+    if (!last && std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
+      continue;
     coarse.strain_yy.push_back(strain / count);
     coarse.stress_yy.push_back(stress / count);
     strain = stress = 0.0;
@@ -132,7 +139,9 @@ void StudyRun::take_header(const std::string& text) {
   };
   auto text_of = [](const json& object, const std::string& key) {
     const auto found = object.find(key);
-    return found == object.end() ? std::string("nothing") : found->is_string() ? found->get<std::string>() : found->dump();
+    return found == object.end() ? std::string("nothing")
+           : found->is_string()  ? found->get<std::string>()
+                                 : found->dump();
   };
   if (there.at("results_version") != here.at("results_version"))
     refuse("results_version", text_of(there, "results_version"), text_of(here, "results_version"));
@@ -207,8 +216,9 @@ void StudyRun::say(const std::string& key, const Evaluation& evaluation) {
     what += score.valid ? fmt::format(", score {:.4g}", score.value) : ", no score";
   }
   const std::string best = plan_.best ? fmt::format("; best so far {:.4g}", plan_.best_score.value) : "";
-  io::log_info(fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}{}", answers_.size(), most_evaluations(),
-                           wanted.candidate->label, final_stage ? "final " : "", wanted.request.replicate + 1, what, best, time_left()));
+  io::log_info(fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}{}", answers_.size(),
+                           most_evaluations(), wanted.candidate->label, final_stage ? "final " : "",
+                           wanted.request.replicate + 1, what, best, time_left()));
 }
 
 void StudyRun::run() {
@@ -227,7 +237,8 @@ void StudyRun::run() {
       stopped = stopped || answer;
       continue;
     }
-    if (stopped && answer->evaluation.status == solver::RunStatus::failed) continue;  // It may have died of the same signal.
+    if (stopped && answer->evaluation.status == solver::RunStatus::failed)
+      continue;  // It may have died of the same signal.
     const std::string key = answer->key;
     record(std::move(*answer));
     plan_ = driver_.plan(answers_);
@@ -235,7 +246,9 @@ void StudyRun::run() {
     in_flight_.erase(key);
   }
   if (executor) executor->stop();
-  status_ = stopped ? solver::RunStatus::stopped : plan_.best ? solver::RunStatus::completed : solver::RunStatus::failed;
+  status_ = stopped      ? solver::RunStatus::stopped
+            : plan_.best ? solver::RunStatus::completed
+                         : solver::RunStatus::failed;
   reason_ = stopped ? "stopped by a signal; go on with --resume" : plan_.reason;
   journal_->append(json({{"event", stopped ? "stop" : "finished"}, {"reason", reason_}}).dump());
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

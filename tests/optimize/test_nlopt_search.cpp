@@ -1,5 +1,5 @@
-// What is here: NLopt by replay against NLopt called straight through its C interface; its traps. Expected numbers are closed-form minima.
-// What is not: designs, journals (test_driver.cpp, test_study_run.cpp).
+// What is here: NLopt by replay against NLopt called straight through its C interface; its traps. Expected numbers are
+// closed-form minima. What is not: designs, journals (test_driver.cpp, test_study_run.cpp).
 #include <gtest/gtest.h>
 #include <nlopt.h>
 
@@ -22,11 +22,19 @@ double bowl(const Point& x) {
 }
 
 /// The same with a region where evaluations fail: the finite penalty of a failure stands there.
-double with_failures(const Point& x) { return x[0] > 0.6 && x[0] < 0.8 ? 750.0 : bowl(x); }
+double with_failures(const Point& x) {
+  return x[0] > 0.6 && x[0] < 0.8 ? 750.0 : bowl(x);
+}
 /// A cliff of constraint penalties.
-double with_cliff(const Point& x) { return bowl(x) < 0.05 ? bowl(x) : 1000.0 * (1.0 + bowl(x)); }
-double constant(const Point&) { return 1.0; }
-double steps(const Point& x) { return std::floor(10.0 * bowl(x)); }
+double with_cliff(const Point& x) {
+  return bowl(x) < 0.05 ? bowl(x) : 1000.0 * (1.0 + bowl(x));
+}
+double constant(const Point&) {
+  return 1.0;
+}
+double steps(const Point& x) {
+  return std::floor(10.0 * bowl(x));
+}
 
 using Function = double (*)(const Point&);
 const std::map<std::string, Function> functions{
@@ -76,7 +84,8 @@ std::vector<Point> straight_points(const SearchOptions& options, Function functi
   nlopt_optimize(search, x.data(), &best);
   if (inner) nlopt_destroy(inner);
   nlopt_destroy(search);
-  if (straight.points.size() > static_cast<std::size_t>(options.maxeval)) straight.points.resize(static_cast<std::size_t>(options.maxeval));
+  if (straight.points.size() > static_cast<std::size_t>(options.maxeval))
+    straight.points.resize(static_cast<std::size_t>(options.maxeval));
   return straight.points;
 }
 
@@ -158,14 +167,15 @@ TEST_P(EveryAlgorithm, ThrowsOurExceptionOnWithItsMessage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(NLopt, EveryAlgorithm, testing::ValuesIn(cases()), [](const testing::TestParamInfo<Case>& instance) {
-  return instance.param.algorithm + "_" + std::to_string(instance.param.dimension);
-});
+INSTANTIATE_TEST_SUITE_P(NLopt, EveryAlgorithm, testing::ValuesIn(cases()),
+                         [](const testing::TestParamInfo<Case>& instance) {
+                           return instance.param.algorithm + "_" + std::to_string(instance.param.dimension);
+                         });
 
 TEST(NloptSearch, ListsTheAlgorithmsThatWereAskedFor) {
   const auto& names = derivative_free_algorithms();
-  for (const char* name : {"GN_DIRECT_L", "GN_CRS2_LM", "GN_ISRES", "LN_SBPLX", "LN_COBYLA", "LN_BOBYQA", "GN_ESCH", "LN_NELDERMEAD",
-                           "LN_NEWUOA_BOUND", "GN_AGS"})
+  for (const char* name : {"GN_DIRECT_L", "GN_CRS2_LM", "GN_ISRES", "LN_SBPLX", "LN_COBYLA", "LN_BOBYQA", "GN_ESCH",
+                           "LN_NELDERMEAD", "LN_NEWUOA_BOUND", "GN_AGS"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
@@ -175,13 +185,13 @@ TEST(NloptSearch, TakesNamesWithAndWithoutPrefixAndRefusesTheRest) {
   EXPECT_EQ(canonical_algorithm("NLOPT_LN_SBPLX", problem), "LN_SBPLX");
   EXPECT_EQ(canonical_algorithm("ln_cobyla", problem), "LN_COBYLA");
   for (const auto& [name, clause] : std::map<std::string, std::string>{{"LD_LBFGS", "needs gradients"},
-                                                                      {"NLOPT_LD_MMA", "needs gradients"},
-                                                                      {"GD_STOGO", "needs gradients"},
-                                                                      {"LN_NEWUOA", "keeps no bounds"},
-                                                                      {"G_MLSL_LDS", "use GN_MLSL_LDS"},
-                                                                      {"AUGLAG", "use LN_AUGLAG"},
-                                                                      {"SIMPLEX", "has no algorithm"},
-                                                                      {"", "has no algorithm"}}) {
+                                                                       {"NLOPT_LD_MMA", "needs gradients"},
+                                                                       {"GD_STOGO", "needs gradients"},
+                                                                       {"LN_NEWUOA", "keeps no bounds"},
+                                                                       {"G_MLSL_LDS", "use GN_MLSL_LDS"},
+                                                                       {"AUGLAG", "use LN_AUGLAG"},
+                                                                       {"SIMPLEX", "has no algorithm"},
+                                                                       {"", "has no algorithm"}}) {
     problem.clear();
     EXPECT_EQ(canonical_algorithm(name, problem), "") << name;
     EXPECT_NE(problem.find(clause), std::string::npos) << name << ": " << problem;
@@ -201,7 +211,8 @@ double lowest(const SearchOptions& options, Function function) {
 
 TEST(NloptSearch, FindsTheKnownMinimum) {
   // The bowl's minimum is 0; a step of 1 % of the bounds off in two variables is 2e-4.
-  for (const char* name : {"GN_DIRECT_L", "GN_DIRECT", "LN_SBPLX", "LN_COBYLA", "LN_BOBYQA", "LN_NELDERMEAD", "LN_NEWUOA_BOUND"})
+  for (const char* name :
+       {"GN_DIRECT_L", "GN_DIRECT", "LN_SBPLX", "LN_COBYLA", "LN_BOBYQA", "LN_NELDERMEAD", "LN_NEWUOA_BOUND"})
     EXPECT_LT(lowest(options_for(name, 2, 150), bowl), 2e-4) << name;
   EXPECT_LT(lowest(options_for("GN_CRS2_LM", 2, 600), bowl), 2e-4);
   EXPECT_LT(lowest(options_for("GN_ISRES", 2, 1500), bowl), 2e-3);
@@ -210,8 +221,8 @@ TEST(NloptSearch, FindsTheKnownMinimum) {
 TEST(NloptSearch, FindsAMinimumOnTheBorderOfAConstraint) {
   // min (x - 0.7)^2 + (y - 0.7)^2 with x + y <= 1 lies at (0.5, 0.5): value 0.08.
   auto away = [](std::span<const double> x) { return std::pow(x[0] - 0.7, 2) + std::pow(x[1] - 0.7, 2); };
-  for (const auto& [name, maxeval] : std::map<std::string, int>{
-           {"LN_COBYLA", 150}, {"GN_ORIG_DIRECT_L", 400}, {"GN_ISRES", 2000}, {"GN_AGS", 400}}) {
+  for (const auto& [name, maxeval] :
+       std::map<std::string, int>{{"LN_COBYLA", 150}, {"GN_ORIG_DIRECT_L", 400}, {"GN_ISRES", 2000}, {"GN_AGS", 400}}) {
     ASSERT_TRUE(takes_constraints(name));
     SearchOptions options = options_for(name, 2, maxeval);
     options.constraints = 1;
@@ -252,11 +263,17 @@ TEST(NloptSearch, WorksOutConstraintsOncePerPoint) {
 TEST(NloptSearch, StopsAtScoreAndTolerances) {
   SearchOptions options = options_for("LN_SBPLX", 2, 500);
   options.stop_score = 1e-3;
-  EXPECT_EQ(run_search(options, [](std::span<const double> x) -> std::optional<double> { return bowl({x.begin(), x.end()}); }).reason,
+  EXPECT_EQ(run_search(options,
+                       [](std::span<const double> x) -> std::optional<double> {
+                         return bowl({x.begin(), x.end()});
+                       })
+                .reason,
             "stop_score reached");
   options.stop_score.reset();
   options.xtol = 1e-2;
-  const SearchEnd end = run_search(options, [](std::span<const double> x) -> std::optional<double> { return bowl({x.begin(), x.end()}); });
+  const SearchEnd end = run_search(options, [](std::span<const double> x) -> std::optional<double> {
+    return bowl({x.begin(), x.end()});
+  });
   EXPECT_EQ(end.reason, "xtol reached");
   EXPECT_LT(end.points, 500);
 }

@@ -1,0 +1,72 @@
+// What is here: a worker program for tests: answers by formula and misbehaves on purpose for certain replicates.
+// What is not: tests. Arguments: "numbers" (plateau = 1000 x replicate) or "formula" (fake_evaluation), and a folder
+// for its marks.
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "study_support.h"
+
+namespace {
+
+using namespace perfora::optimize;
+
+/// True at the first call for `name` in the folder, whichever process makes it.
+bool first_time(const std::string& folder, const std::string& name) {
+  const std::string path = folder + "/" + name;
+  if (std::ifstream(path)) return false;
+  std::ofstream(path) << "x";
+  return true;
+}
+
+void misbehave(int replicate, const std::string& folder) {
+  switch (replicate) {
+    case 103:
+      std::_Exit(42);
+    case 104:
+      if (first_time(folder, "crashed")) std::_Exit(3);
+      break;
+    case 105:
+      std::cout << "this is not JSON" << std::endl;
+      std::cout << "nor this" << std::endl;
+      std::_Exit(0);
+    case 106:
+      std::raise(SIGKILL);
+      break;
+    case 107:
+      ::sleep(1000);
+      break;
+    case 108:
+      std::cout << "{\"status\": \"completed\"}" << std::endl;
+      break;
+    case 109:
+      std::raise(SIGSEGV);
+      break;
+    case 110:
+      ::usleep(300000);
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::string mode = arguments[1], folder = arguments[2];
+  for (std::string line; std::getline(std::cin, line);) {
+    const Request request = request_from_json(nlohmann::json::parse(line));
+    std::ofstream(folder + "/pids", std::ios::app) << ::getpid() << "\n";
+    misbehave(request.replicate, folder);
+    Evaluation evaluation = mode == "formula" ? fake_evaluation(request) : failed_evaluation(request, "");
+    if (mode == "numbers") {
+      evaluation.status = perfora::solver::RunStatus::completed;
+      evaluation.summary.plateau_stress = 1000.0 * request.replicate;
+    }
+    std::cout << to_json(evaluation, true).dump() << std::endl;
+  }
+}
