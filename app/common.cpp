@@ -31,9 +31,15 @@ constexpr int most_threads = 4096;
 /// The argument as a shell would need it.
 std::string quoted(const std::string& argument) {
   if (!argument.empty() && argument.find_first_of(" \t\n\"'\\$&|;<>()*?[]{}#~`!") == std::string::npos) return argument;
-  std::string result = "'";
-  for (const char c : argument) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
+  std::string result(1, '\'');
+  for (const char c : argument) {
+    if (c == '\'')
+      result.append("'\\''");
+    else
+      result.push_back(c);
+  }
+  result.push_back('\'');
+  return result;
 }
 
 void add_seed(std::vector<std::string>& overrides, const char* key, const std::vector<std::int64_t>& value) {

@@ -47,7 +47,7 @@ void say_how_it_ended(solver::RunStatus status, const std::string& reason, const
                       const std::string& again) {
   if (status == solver::RunStatus::completed) io::log_info("written: " + where);
   if (status == solver::RunStatus::stopped)
-    io::log_warning(fmt::format("stopped ({}); the state is kept in {}; go on with {}", reason, where, again));
+    io::log_warning(fmt::format("stopped ({}); the state is kept; go on with {}", reason, again));
   if (status == solver::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
@@ -69,7 +69,7 @@ int evaluate_one(const EvaluateFlags& flags) {
     print_json(record);
   else
     print_text(summary_text(record));
-  say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "--resume");
+  say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);
 }
 
@@ -99,7 +99,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
     print_json(record);
   else
     print_text(summary_text(record));
-  say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "--resume");
+  say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "the same command and --resume");
   return exit_code_of(ensemble.status);
 }
 

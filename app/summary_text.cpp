@@ -102,15 +102,28 @@ std::string line_text(const std::string& label, const std::string& value) {
   return fmt::format("  {:<{}} {}\n", label, label_width, value);
 }
 
+std::string wall_pair_text(const json& object) {
+  const auto pair = object.find("thinnest_wall_pair");
+  if (pair == object.end() || !pair->is_array() || pair->size() != 2) return {};
+  return line_text("  between perforations",
+                   fmt::format("{} and {} (counted from 0)", pair->at(0).dump(), pair->at(1).dump()));
+}
+
+/// What to print for a key; empty: nothing (walls where there are no perforations).
+std::string entry_text(const Line& line, const json& value) {
+  if (value.is_number()) return value_text(value.get<double>(), line.unit);
+  if (value.is_string()) return value.get<std::string>();
+  return std::string(line.key).starts_with("thinnest_wall") ? "" : "not reached";
+}
+
 std::string lines_text(const char* title, const json& object, std::span<const Line> lines) {
   std::string text;
   for (const Line& line : lines) {
     const auto found = object.find(line.key);
     if (found == object.end()) continue;
-    std::string value = "not reached";
-    if (found->is_number()) value = value_text(found->get<double>(), line.unit);
-    if (found->is_string()) value = found->get<std::string>();
-    text += line_text(line.label, value);
+    const std::string value = entry_text(line, *found);
+    if (!value.empty()) text += line_text(line.label, value);
+    if (std::string(line.key) == "thinnest_wall") text += wall_pair_text(object);
   }
   return text.empty() ? text : std::string(title) + "\n" + text;
 }
@@ -124,13 +137,6 @@ std::string head_text(const json& object) {
     text += line_text("seeds", list);
   }
   return text;
-}
-
-std::string wall_pair_text(const json& object) {
-  const auto pair = object.find("thinnest_wall_pair");
-  if (pair == object.end() || !pair->is_array() || pair->size() != 2) return {};
-  return line_text("  between perforations",
-                   fmt::format("{} and {} (counted from 0)", pair->at(0).dump(), pair->at(1).dump()));
 }
 
 std::string performance_text(const json& object) {
@@ -234,7 +240,7 @@ std::string summary_text(const json& object) {
   std::string text = head_text(object);
   if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
   if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
-  text += lines_text("Packing", object, pack_lines) + wall_pair_text(object);
+  text += lines_text("Packing", object, pack_lines);
   text += lines_text("Curve", object, curve_lines) + plateau_window_text(object);
   text += lines_text("Breakage at the end", object, damage_lines);
   text += lines_text("Run", object, run_lines);
