@@ -2,6 +2,7 @@
 // What is not: particular mistakes.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "example_options.h"
@@ -75,6 +76,12 @@ std::string mutated(Random& random, std::string text) {
   return text;
 }
 
+/// PERFORA_FUZZ_FACTOR in the environment makes all of this that many times longer.
+std::uint64_t rounds(std::uint64_t usual) {
+  const char* factor = std::getenv("PERFORA_FUZZ_FACTOR");
+  return factor == nullptr ? usual : usual * std::strtoull(factor, nullptr, 10);
+}
+
 template <class Code>
 void accept_or_refuse(const std::string& input, const Code& code) {
   try {
@@ -96,7 +103,7 @@ std::string next_text(Random& random, int kind, const std::string& valid) {
 
 TEST(Fuzz, Toml) {
   const std::string valid = "title = \"x\"\n" + Example().schema.to_toml();
-  for (std::uint64_t seed = 0; seed < 6000; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds(6000); ++seed) {
     Random random(seed);
     const std::string text = next_text(random, static_cast<int>(seed % 3), valid);
     accept_or_refuse(text, [&] { Example().apply(text); });
@@ -104,7 +111,7 @@ TEST(Fuzz, Toml) {
 }
 
 TEST(Fuzz, Quantities) {
-  for (std::uint64_t seed = 0; seed < 8000; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds(8000); ++seed) {
     Random random(seed);
     const std::string text = next_text(random, static_cast<int>(seed % 3), "-2.195e+7 N/m");
     for (int dimension = 0; dimension <= static_cast<int>(Dimension::angle); ++dimension)
@@ -115,7 +122,7 @@ TEST(Fuzz, Quantities) {
 }
 
 TEST(Fuzz, Overrides) {
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds(3000); ++seed) {
     Random random(seed);
     const std::string text = next_text(random, static_cast<int>(seed % 3), "layout.holes=[[\"1 mm\", 2, 3e-3]]");
     Example example;
@@ -127,7 +134,7 @@ TEST(Fuzz, Overrides) {
 
 TEST(Fuzz, Csv) {
   const std::string valid = "x, y, radius\n# comment\n1, 2, 3\n4.5, 5e-3, 6\n";
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds(2000); ++seed) {
     Random random(seed);
     const std::string text = next_text(random, static_cast<int>(seed % 3), valid);
     accept_or_refuse(text, [&] { (void)parse_csv(text, "a.csv", {"x", "y", "radius"}, 100); });
@@ -143,7 +150,7 @@ TEST(Fuzz, Journal) {
     for (int k = 0; k < 4; ++k) journal.append("{\"event\":" + std::to_string(k) + "}");
     valid = read_file(path);
   }
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+  for (std::uint64_t seed = 0; seed < rounds(150); ++seed) {
     Random random(seed);
     const std::string text = next_text(random, static_cast<int>(seed % 3), valid);
     folder.file("journal.jsonl", text);

@@ -64,6 +64,16 @@ TEST(Toml, SyntaxErrorsNameTheLine) {
   EXPECT_THAT(error_of(std::string("a = 1\n\0b = 2\n", 13)), StartsWith("a.toml:2: "));
 }
 
+TEST(Toml, NonAsciiCharactersOutsideQuotesNameTheLine) {
+  for (const char* bad : {"\u00e9", "\u03b4", "\u3042", "\uff01", "\u2014", "\u00a0x"}) {
+    EXPECT_THAT(error_of(std::string(bad) + " = 1\n"), StartsWith("a.toml:1: "));
+    EXPECT_THAT(error_of("h" + std::string(bad) + "he = 1\n"), StartsWith("a.toml:1: "));
+    EXPECT_THAT(error_of("a = 20 " + std::string(bad) + "m\n"), StartsWith("a.toml:1: "));
+    EXPECT_THAT(error_of("a = 20" + std::string(bad) + "\n"), StartsWith("a.toml:1: "));
+    EXPECT_THAT(keys_of("\"" + std::string(bad) + "\" = \"\"\"\\\n" + bad + "\"\"\" # " + bad), ElementsAre(bad));
+  }
+}
+
 TEST(Toml, DatesAndMixedListsAreRefused) {
   EXPECT_THAT(error_of("a = 2020-01-01\n"), AllOf(StartsWith("a.toml:1: a: found a date"), HasSubstr("in quotes")));
   EXPECT_THAT(error_of("a = 10:00:00\n"), HasSubstr("date or time"));
