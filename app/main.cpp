@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   app::add_plot(program, exit_code);
 #endif
   app::add_worker(program, exit_code);
+  app::add_reference(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 
-#include "tests/support/reference_text.h"
+#include "optimize/design.h"
 
 namespace perfora::test {
 namespace {
@@ -22,13 +24,23 @@ std::string read_text(const fs::path& path) {
   return text.str();
 }
 
+std::string printed_reference() {
+  std::string text;
+  FILE* pipe = popen("'" PERFORA_PROGRAM "' reference", "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot run " PERFORA_PROGRAM);
+  char part[4096];
+  for (std::size_t size; (size = std::fread(part, 1, sizeof part, pipe)) > 0;) text.append(part, size);
+  EXPECT_EQ(pclose(pipe), 0);
+  return text;
+}
+
 TEST(Documentation, ReferenceIsWhatTheTableOfKeysPrints) {
   const std::string text = read_text(source / "docs/design-files.md");
   const std::string line = "\n---\n\n";
   const auto place = text.find(line);
   ASSERT_NE(place, std::string::npos);
-  EXPECT_EQ(text.substr(place + line.size()), reference_text())
-      << "the keys have changed: write the output of print_reference below the line of docs/design-files.md";
+  EXPECT_EQ(text.substr(place + line.size()), printed_reference())
+      << "the keys have changed: write what `perfora reference` prints below the line of docs/design-files.md";
 }
 
 TEST(Documentation, KeysThatTheTheoryNamesExist) {
