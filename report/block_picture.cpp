@@ -15,6 +15,8 @@ namespace {
 constexpr double bonded_growth = 0.28;
 /// From this radius on (pixels) discs are shown one by one over the closed ground.
 constexpr double visible_radius = 2.2;
+/// Then the ground shows around each of them as a rim.
+constexpr double rim_share = 0.9;
 
 struct Disc {
   double x, y, radius;
@@ -53,10 +55,10 @@ void enter_block(cairo_t* context, const Box& box, const BlockPicture& block) {
   cairo_scale(context, scale, -scale);
 }
 
-void paint_discs(cairo_t* context, const BlockPicture& block, bool ground) {
+void paint_discs(cairo_t* context, const BlockPicture& block, bool ground, double rim) {
   for (std::size_t k = 0; k < block.x.size(); ++k) {
-    const double radius = ground ? block.radius[k] * (1.0 + block.growth[k]) : block.radius[k];
-    set_colour(context, ground ? mix(block.colour[k], palette::ink, 0.10) : block.colour[k]);
+    const double radius = block.radius[k] * (ground ? 1.0 + block.growth[k] : rim_share);
+    set_colour(context, ground ? mix(block.colour[k], palette::ink, rim) : block.colour[k]);
     for_images(block, k, radius, [&](const Disc& disc) {
       cairo_new_sub_path(context);
       cairo_arc(context, disc.x, disc.y, disc.radius, 0.0, 2.0 * std::numbers::pi);
@@ -72,12 +74,12 @@ double median_radius(const BlockPicture& block) {
   return radii[radii.size() / 2];
 }
 
-/// Share of dark red: nothing for the few bonds every disc near a wall loses, much for the faces of a crack, little for
-/// crumbs.
+/// Share of dark red: nothing for the few bonds every disc near a wall loses, much for the faces of a crack. Crumbs
+/// have lost nearly all by their nature.
 double damage_tint(double damage, int hue) {
   constexpr double unseen = 0.15;
-  const double share = std::clamp((damage - unseen) / (1.0 - unseen), 0.0, 1.0);
-  return share * (hue == main_colour ? 1.0 : (hue == dust_colour ? 0.3 : 0.7));
+  if (hue == dust_colour) return 0.0;
+  return std::clamp((damage - unseen) / (1.0 - unseen), 0.0, 1.0) * (hue == main_colour ? 1.0 : 0.7);
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipp
                              ? palette::concrete
                              : (hue == dust_colour ? palette::dust : hues[static_cast<std::size_t>(hue)]);
     picture.colour.push_back(mix(plain, palette::damaged, damage_tint(frame.damage[k], hue)));
-    picture.growth.push_back(bonded_growth * (1.0 - std::clamp(frame.damage[k], 0.0, 1.0)));
+    picture.growth.push_back(hue == dust_colour ? 0.0 : bonded_growth * (1.0 - std::clamp(frame.damage[k], 0.0, 1.0)));
   }
   return picture;
 }
@@ -145,8 +147,9 @@ void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture) {
   set_colour(inside, palette::paper);
   cairo_fill_preserve(inside);
   cairo_clip(inside);
-  paint_discs(inside, picture, true);
-  if (median_radius(picture) * box.width / picture.extent_x() > visible_radius) paint_discs(inside, picture, false);
+  const bool one_by_one = median_radius(picture) * box.width / picture.extent_x() > visible_radius;
+  paint_discs(inside, picture, true, one_by_one ? 0.22 : 0.04);
+  if (one_by_one) paint_discs(inside, picture, false, 0.0);
   cairo_destroy(inside);
 
   cairo_t* context = canvas.context();

@@ -81,8 +81,6 @@ void draw_lines(Chart& chart, const std::vector<Series>& series, const CurveMark
   if (marks.plateau_stress && marks.plateau_start && marks.plateau_end)
     chart.horizontal(*marks.plateau_stress * mega, *marks.plateau_start * percent, *marks.plateau_end * percent,
                      plateau_colour, 3.0);
-  if (marks.densification_strain)
-    chart.vertical(*marks.densification_strain * percent, palette::soft_ink, 1.6, {3.0, 4.0});
 }
 
 /// The text of the plateau, in two lines at the top of its band.
@@ -100,9 +98,17 @@ void annotate_window(Canvas& canvas, const Chart& chart, const CurveMarks& marks
               {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre});
 }
 
-/// Left of its line and below the text of the plateau: right of it the curve rises.
+void draw_densification(Canvas& canvas, const Chart& chart, const CurveMarks& marks, double top) {
+  if (!marks.densification_strain) return;
+  const double x = chart.px(*marks.densification_strain * percent);
+  if (x <= chart.box().right()) canvas.line(x, top, x, chart.box().bottom(), palette::soft_ink, 1.6, {3.0, 4.0});
+}
+
+/// Line and text below the text of the plateau, which it may run into; text left of the line, because right of it the
+/// curve rises.
 void annotate_densification(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
   if (!marks.densification_strain) return;
+  draw_densification(canvas, chart, marks, chart.box().y + 68.0);
   const double x = chart.px(*marks.densification_strain * percent) - 9.0;
   canvas.text(x, chart.box().y + 84.0, "densification",
               {.size = 15.0, .colour = palette::soft_ink, .align = Align::right, .halo = true});
@@ -194,6 +200,7 @@ Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>
   draw_grounds(lower, marks);
   lower.draw_axes();
   draw_lines(lower, series, marks);
+  draw_densification(canvas, lower, marks, lower.box().y);
   annotate_magnified(canvas, lower, marks);
   return upper;
 }

@@ -39,7 +39,9 @@ std::vector<Fact> facts_of(const PackResult& pack) {
       text += " (" + short_number(*between * 1e3) + " between discs)";
     facts.emplace_back("thinnest wall", text);
   }
-  facts.emplace_back("largest overlap", short_number(quality.max_overlap_ratio, 2) + " of the diameter");
+  facts.emplace_back("largest overlap", quality.max_overlap_ratio > 0.0
+                                            ? short_number(quality.max_overlap_ratio, 2) + " of the smaller diameter"
+                                            : "none");
   if (quality.coordination_number > 0.0)
     facts.emplace_back("coordination number", short_number(quality.coordination_number));
   return facts;
@@ -92,8 +94,8 @@ void draw_packing(const PackResult& pack, const std::filesystem::path& out, cons
                           short_number(pack.clipped.height * 1e3), pack.periodic.key.protocol, pack.periodic.key.seed),
               {.size = 17.0, .colour = palette::soft_ink});
   const BlockPicture picture = picture_of_packing(pack.clipped);
-  const Box box =
-      fit_block(picture, {page_margin, 116.0, side_panel - page_margin - 110.0, page_height - 116.0 - 52.0}, 0.0);
+  Box box = fit_block(picture, {page_margin, 116.0, side_panel - page_margin - 110.0, page_height - 116.0 - 52.0}, 0.0);
+  box.x = page_margin;
   draw_block(canvas, box, picture);
   draw_perforation_rims(canvas, box, pack.layout, palette::vermilion);
   draw_scale_bar(canvas, box.right(), box.bottom() + 26.0, box.width / picture.extent_x());
