@@ -2,8 +2,6 @@
 // What is not: decisions about scales and pressures (jam.cpp).
 #include "geometry/overlap_minimiser.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +40,7 @@ constexpr double coincident = 1e-30;
 OverlapMinimiser::OverlapMinimiser(SoftDiscs discs, int threads)
     : discs_(std::move(discs)),
       chunks_((discs_.x.size() + chunk_size - 1) / chunk_size),
-      threads_(std::clamp(threads, 1, static_cast<int>(1 + discs_.x.size() / discs_per_thread))),
+      team_(std::clamp(threads, 1, static_cast<int>(1 + discs_.x.size() / discs_per_thread))),
       places_(discs_.x.size()),
       neighbours_(chunks_),
       list_end_(discs_.x.size()) {
@@ -58,8 +56,6 @@ OverlapMinimiser::OverlapMinimiser(SoftDiscs discs, int threads)
     places_[i] = {discs_.x[i], discs_.y[i], discs_.radius[i], 0.0};
   }
 }
-
-OverlapMinimiser::~OverlapMinimiser() = default;
 
 void OverlapMinimiser::wrap_positions() {
   const auto wrap = [](double value, double period) {
@@ -80,8 +76,7 @@ void OverlapMinimiser::build_lists(double skin) {
   const CellGrid grid(discs_.width, discs_.height, 2.0 * largest + skin, n,
                       [this](std::size_t i) { return places_[i]; });
   const double half_width = 0.5 * discs_.width, half_height = 0.5 * discs_.height;
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
+  team_.for_each(chunks_, [&](std::size_t chunk) {
     std::vector<std::int32_t>& list = neighbours_[chunk];
     list.clear();
     for (std::size_t i = chunk * chunk_size; i < std::min(n, (chunk + 1) * chunk_size); ++i) {
@@ -97,7 +92,7 @@ void OverlapMinimiser::build_lists(double skin) {
       listed_x_[i] = places_[i].x;
       listed_y_[i] = places_[i].y;
     }
-  }
+  });
 }
 
 template <bool measured>
@@ -144,9 +139,9 @@ OverlapMinimiser::Sums OverlapMinimiser::forces_of_chunk(std::size_t chunk) {
 
 OverlapMinimiser::Sums OverlapMinimiser::compute_forces(bool measured) {
   std::vector<Sums> partial(chunks_);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t chunk = 0; chunk < chunks_; ++chunk)
+  team_.for_each(chunks_, [&](std::size_t chunk) {
     partial[chunk] = measured ? forces_of_chunk<true>(chunk) : forces_of_chunk<false>(chunk);
+  });
   Sums total;
   for (const Sums& part : partial) {
     total.force_squared += part.force_squared;
@@ -163,8 +158,7 @@ OverlapMinimiser::Sums OverlapMinimiser::compute_forces(bool measured) {
 
 double OverlapMinimiser::move_discs(double keep, double steer, double step, bool stopped) {
   std::vector<double> farthest(chunks_, 0.0);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t chunk = 0; chunk < chunks_; ++chunk) {
+  team_.for_each(chunks_, [&](std::size_t chunk) {
     double largest = 0.0;
     for (std::size_t i = chunk * chunk_size; i < std::min(places_.size(), (chunk + 1) * chunk_size); ++i) {
       const double ax = force_x_[i] * inverse_mass_[i], ay = force_y_[i] * inverse_mass_[i];
@@ -181,7 +175,7 @@ double OverlapMinimiser::move_discs(double keep, double steer, double step, bool
       largest = std::max(largest, mx * mx + my * my);
     }
     farthest[chunk] = largest;
-  }
+  });
   return *std::max_element(farthest.begin(), farthest.end());
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/thread_team.h"
+
 namespace perfora::geometry {
 
 /// Discs in a periodic rectangle in a unit of length of the order of their diameter; radii are multiplied by a common
@@ -40,7 +42,6 @@ class OverlapMinimiser {
  public:
   /// Each pair acts through its nearest periodic image only, so a disc must be smaller than half the cell.
   OverlapMinimiser(SoftDiscs discs, int threads);
-  ~OverlapMinimiser();
 
   /// Minimises from the present positions with radii scale * radius. Cost: about 12 neighbours a disc and iteration.
   OverlapState minimise(double scale, const StopRule& stop);
@@ -70,7 +71,7 @@ class OverlapMinimiser {
 
   SoftDiscs discs_;
   std::size_t chunks_;
-  int threads_;
+  ThreadTeam team_;
   std::vector<Place> places_;
   std::vector<double> mass_, inverse_mass_;
   std::vector<double> force_x_, force_y_, speed_x_, speed_y_, listed_x_, listed_y_;
