@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "solver/kernels.h"
+#include "solver/vector4.h"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
@@ -15,16 +16,9 @@
 #else
 #define PERFORA_CLONES
 #endif
-#define PERFORA_INLINE __attribute__((always_inline)) inline
-
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace perfora::solver {
 namespace {
-
-constexpr int lanes = 4;
-using Vector = double __attribute__((vector_size(lanes * sizeof(double))));
-using Mask = std::int64_t __attribute__((vector_size(lanes * sizeof(std::int64_t))));
 
 std::size_t at(std::int32_t k) {
   return static_cast<std::size_t>(k);
@@ -40,39 +34,6 @@ struct alignas(32) Group {
   std::int32_t neighbour[lanes];
   std::int32_t bond[lanes];  ///< -1: empty
 };
-
-PERFORA_INLINE Vector splat(double v) {
-  return Vector{v, v, v, v};
-}
-PERFORA_INLINE double sum(const Vector& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
-}
-
-/// Nearest integer of |v| < 2^51, ties to even, by the addition that pushes the fraction out: one instruction set for
-/// all.
-PERFORA_INLINE Vector nearest(Vector v) {
-  const Vector magic = splat(6755399441055744.0);  // 1.5 x 2^52
-  return (v + magic) - magic;
-}
-
-PERFORA_INLINE Vector root(Vector v) {
-  Vector r;
-  for (int k = 0; k < lanes; ++k) r[k] = __builtin_sqrt(v[k]);
-  return r;
-}
-
-PERFORA_INLINE Vector half_integer_power_of(Vector base, int twice_exponent) {
-  Vector result = (twice_exponent & 1) ? root(base) : splat(1.0);
-  for (int rest = twice_exponent >> 1; rest > 0; rest >>= 1) {
-    if (rest & 1) result *= base;
-    base *= base;
-  }
-  return result;
-}
-
-PERFORA_INLINE Vector magnitude(Vector v) {
-  return v < 0.0 ? -v : v;
-}
 
 /// Everything the loops over one chunk read and write.
 struct ChunkTask {
@@ -234,7 +195,7 @@ PERFORA_INLINE void chunk_forces(ChunkTask& task) {
       Vector shear = k_t * delta_t * left;
       Mask off_path = share_n + power > one;
       if constexpr (compression_weakens) off_path |= (group.damage > zero) & (group.damage < one);
-      if (__builtin_expect((off_path[0] | off_path[1] | off_path[2] | off_path[3]) != 0, 0)) {
+      if (__builtin_expect(any(off_path), 0)) {
         for (int lane = 0; lane < lanes; ++lane) {
           if (off_path[lane] == 0) continue;
           const BondForce f = yielding_bond(task, i, group, lane);

@@ -99,6 +99,10 @@ Simulation::Simulation(SimulationInput input)
   }
   discs_.mass = std::move(input.masses.mass);
   discs_.inertia = std::move(input.masses.inertia);
+  for (std::size_t d = 0; d < n; ++d) {
+    inverse_mass_.push_back(1.0 / discs_.mass[d]);
+    inverse_inertia_.push_back(1.0 / discs_.inertia[d]);
+  }
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
   near_pairs_.rebuild(discs_, now_, network_);
@@ -136,8 +140,8 @@ void Simulation::kick_and_drift() {
       const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
       const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
                    torque = damped(discs_.torque[k], w, c);
-      const double nvx = vx + dt * fx / discs_.mass[k], nvy = vy + dt * fy / discs_.mass[k],
-                   nw = w + dt * torque / discs_.inertia[k];
+      const double nvx = vx + dt * fx * inverse_mass_[k], nvy = vy + dt * fy * inverse_mass_[k],
+                   nw = w + dt * torque * inverse_inertia_[k];
       // Work of the damping force in this kick, exact for the kick: force times mean velocity.
       sums.cundall -= 0.5 * dt *
                       ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) +
@@ -269,8 +273,8 @@ Ledger Simulation::ledger() const {
     const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
     const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
                  torque = damped(discs_.torque[k], w, c);
-    const double nvx = vx + half * fx / discs_.mass[k], nvy = vy + half * fy / discs_.mass[k],
-                 nw = w + half * torque / discs_.inertia[k];
+    const double nvx = vx + half * fx * inverse_mass_[k], nvy = vy + half * fy * inverse_mass_[k],
+                 nw = w + half * torque * inverse_inertia_[k];
     ledger.cundall -=
         0.5 * half *
         ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));

@@ -119,6 +119,7 @@ class Simulation {
   BondLaw bond_law_;
   ContactLaw contact_law_;
   DiscState discs_;
+  std::vector<double> inverse_mass_, inverse_inertia_;
   BondNetwork network_;
   NearPairs near_pairs_;
   std::unique_ptr<ForceBackend> backend_;
