@@ -57,7 +57,7 @@ std::string after_section(const std::string& key) {
 }
 
 bool belongs_to_study(const std::string& override_text) {
-  static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms"};
+  static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms", "set"};
   return sections.contains(section_of(override_text));
 }
 
@@ -67,6 +67,7 @@ struct Reader {
   Study study;
   io::Schema schema;
   std::vector<io::Entry> variables, arms;
+  std::vector<io::Entry> fixed;  ///< [set]: keys of the design that differ from its file
 
   explicit Reader(const std::filesystem::path& file) : path(file) {
     describe(schema, study.keys);
@@ -95,15 +96,17 @@ struct Reader {
     entry.value.data = text;
   }
 
+  static void replace(std::vector<io::Entry>& list, io::Entry entry) {
+    std::erase_if(list, [&](const io::Entry& other) { return other.key == entry.key; });
+    list.push_back(std::move(entry));
+  }
+
   void take(io::Entry entry, const std::string& source) {
     const std::string section = section_of(entry.key);
-    if (section == "variables" || section == "arms") {
+    if (section == "variables" || section == "arms" || section == "set") {
       std::erase_if(entry.key,
                     [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
-      auto& list = section == "arms" ? arms : variables;
-      std::erase_if(list, [&](const io::Entry& other) { return other.key == entry.key; });
-      list.push_back(std::move(entry));
-      return;
+      return replace(section == "arms" ? arms : section == "set" ? fixed : variables, std::move(entry));
     }
     flatten_allocation(entry, {source, entry.value.line, entry.key});
     io::apply_entries(schema, {entry}, source);
@@ -115,7 +118,7 @@ struct Reader {
     for (const std::string& text : overrides) {
       if (!belongs_to_study(text))
         of_design.push_back(text);
-      else if (section_of(text) == "variables" || section_of(text) == "arms")
+      else if (section_of(text) == "variables" || section_of(text) == "arms" || section_of(text) == "set")
         for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
       else
         schema.set_override(text);
@@ -124,6 +127,12 @@ struct Reader {
       throw io::InputError({path.string(), 0, "study.design"}, "no design is named to start from",
                            "the path of a design file", "add design = \"quick.toml\" under [study]");
     auto start = std::make_shared<DesignFile>(study.keys.design, of_design);
+    for (io::Entry& entry : fixed) {
+      entry.key = after_section(entry.key);
+      io::apply_entries(start->schema(), {entry}, path.string());
+    }
+    for (const std::string& text : of_design)
+      start->schema().set_override(text);  // The command line has the last word.
     check_numbers(*start);
     study.warnings = start->validate();
     study.start = start;

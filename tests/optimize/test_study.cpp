@@ -171,6 +171,16 @@ TEST_F(StudyFile, OverridesReachStudyAndDesign) {
   EXPECT_DOUBLE_EQ(study.variables.back().high == 0.016 ? 0.016 : study.variables.front().high, 0.016);
 }
 
+TEST_F(StudyFile, SetsKeysOfTheDesignBelowTheCommandLine) {
+  const std::string text =
+      study_text("maxeval = 12") + "[set]\nloading.transits = 11\nmaterial.friction_coefficient = 0.3\n";
+  const Study study = read(text, {"loading.transits=13"});
+  EXPECT_DOUBLE_EQ(study.start->design().solver.loading.transits, 13.0);
+  EXPECT_DOUBLE_EQ(study.start->design().solver.material.friction_coefficient, 0.3);
+  EXPECT_NE(study.resolved(), read(study_text("maxeval = 12")).resolved());
+  EXPECT_TRUE(has(error(study_text("maxeval = 12") + "[set]\nloading.transit = 11\n"), "loading.transits"));
+}
+
 TEST_F(StudyFile, ResolvesToTheSameTextUnlessSomethingThatMattersChanges) {
   const auto first = read(study_text("maxeval = 12")).resolved();
   EXPECT_EQ(read(study_text("maxeval = 12\nworkers = 3")).resolved(), first);
