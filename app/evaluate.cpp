@@ -57,6 +57,8 @@ int evaluate_one(const EvaluateFlags& flags) {
   const auto output = output_or_default(flags.output, default_name(flags.design, ".h5"));
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
   check_run_output(output, flags.common.force, flags.resume);
+  if (flags.resume)
+    static_cast<void>(optimize::finished_evaluation(design, output, 0));  // refuses another design's run
   log_warnings(warnings);
   ProgressLine progress("compression", flags.common.quiet);
   optimize::EvaluateOptions options = evaluate_options(flags, progress);

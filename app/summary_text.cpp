@@ -200,7 +200,7 @@ std::string with_thousands(double count) {
   if (!std::isfinite(count)) return "?";
   std::string digits = fmt::format("{:.0f}", std::abs(count));
   for (auto k = static_cast<std::ptrdiff_t>(digits.size()) - 3; k > 0; k -= 3)
-    digits.insert(static_cast<std::size_t>(k), ",");
+    digits.insert(static_cast<std::size_t>(k), 1, ',');
   return count < 0.0 ? "-" + digits : digits;
 }
 

@@ -57,6 +57,7 @@ void check_hole_count(const Design& design, const io::Schema& schema, double hor
   const double closest = std::sqrt(2.0 * area / (std::numbers::sqrt3 * static_cast<double>(holes)));
   if (closest - layout.diameter >= horizon_radius) return;
   const double most = 2.0 * area / (std::numbers::sqrt3 * std::pow(layout.diameter + horizon_radius, 2));
+  if (most < 1.0) return;  // not the number is wrong: make_layout and check_walls say what
   throw io::InputError(
       schema.origin(count_key(layout)),
       fmt::format(
@@ -210,23 +211,44 @@ void warn_about_window(const Design& design, std::vector<std::string>& warnings)
                   until, design.solver.measures.plateau_end));
 }
 
+std::vector<std::string> checked(const Design& design, const io::Schema& schema) {
+  std::vector<std::string> warnings;
+  check_size_law(design, schema);
+  check_disc_count(design, schema);
+  const double mean_diameter = horizon_diameter(design);
+  const double horizon_radius = design.solver.material.horizon * mean_diameter;
+  check_cell_against_discs(design, schema, mean_diameter, horizon_radius);
+  check_hole_count(design, schema, horizon_radius);
+  const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &schema);
+  check_walls(layout, schema, horizon_radius, warnings);
+  solver::validate(design.solver, schema);
+  warn_about_holes(layout, design, warnings);
+  warn_about_resolution(design, mean_diameter, warnings);
+  warn_about_window(design, warnings);
+  return warnings;
+}
+
+/// A complaint about a key that the file leaves at its default names the file all the same: that is where the remedy
+/// goes. Holes that came from a CSV file are that file's.
+io::InputError at_home(const io::InputError& error, const Design& design, const std::filesystem::path& path) {
+  if (error.origin().file != "default" || path.empty()) return error;
+  const std::string prefix = "default: " + error.origin().key + ": ";
+  std::string text = error.what();
+  if (!text.starts_with(prefix)) return error;
+  text.erase(0, prefix.size());
+  if (error.origin().key == "layout.holes" && !design.layout.file.empty())
+    return {{design.layout.file.string(), 0, ""}, text};
+  return {{path.string(), 0, error.origin().key}, text};
+}
+
 }  // namespace
 
 std::vector<std::string> DesignFile::validate() const {
-  std::vector<std::string> warnings;
-  check_size_law(*design_, *schema_);
-  check_disc_count(*design_, *schema_);
-  const double mean_diameter = horizon_diameter(*design_);
-  const double horizon_radius = design_->solver.material.horizon * mean_diameter;
-  check_cell_against_discs(*design_, *schema_, mean_diameter, horizon_radius);
-  check_hole_count(*design_, *schema_, horizon_radius);
-  const auto layout = geometry::make_layout(design_->layout, design_->seeds.effective(0).layout, schema_.get());
-  check_walls(layout, *schema_, horizon_radius, warnings);
-  solver::validate(design_->solver, *schema_);
-  warn_about_holes(layout, *design_, warnings);
-  warn_about_resolution(*design_, mean_diameter, warnings);
-  warn_about_window(*design_, warnings);
-  return warnings;
+  try {
+    return checked(*design_, *schema_);
+  } catch (const io::InputError& error) {
+    throw at_home(error, *design_, path_);
+  }
 }
 
 }  // namespace perfora::optimize

@@ -1,0 +1,107 @@
+// What is here: what `check` says beforehand. Expected numbers: the paper's Table 1, random points counted pair by
+// pair, and the solver's own count on a packing that is really made.
+#include "optimize/estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "optimize/evaluation.h"
+#include "solver/run.h"
+#include "tests/optimize/design_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) / "designs";
+
+TEST(Estimate, TableOneHasThePapersNumbers) {
+  // Table 1: 36,607 discs, 21.034 bonds per disc; the tolerances are those the packing itself is held to.
+  const DesignEstimate estimate = estimate_design(DesignFile(designs / "table1.toml"), 1);
+  EXPECT_NEAR(static_cast<double>(estimate.discs), 36607.0, 0.01 * 36607.0);
+  EXPECT_NEAR(estimate.bonds_per_disc, 21.034, 0.03 * 21.034);
+  EXPECT_EQ(estimate.perforations, 36);
+  EXPECT_NEAR(estimate.thinnest_wall.thickness, 0.005, 1e-12);
+  EXPECT_NEAR(estimate.porosity, 36.0 * M_PI * 100.0 / 22500.0, 1e-12);
+}
+
+TEST(Estimate, SolidBlockHasTheTexts23Bonds) {
+  EXPECT_NEAR(estimate_design(DesignFile(designs / "solid.toml"), 1).bonds_per_disc, 23.0, 0.5);
+}
+
+/// Mean number of neighbours within `radius` of points thrown at random outside the holes, over that of points
+/// everywhere.
+double random_share(const geometry::PerforationLayout& layout, double radius, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto inside = [&](double x, double y) {
+    for (const auto& hole : layout.perforations)
+      for (const double sx : {-layout.width, 0.0, layout.width})
+        for (const double sy : {-layout.height, 0.0, layout.height})
+          if (hole.contains(x + sx, y + sy)) return true;
+    return false;
+  };
+  int pairs = 0, hits = 0;
+  while (pairs < 400000) {
+    const double x = layout.width * unit(generator), y = layout.height * unit(generator);
+    if (inside(x, y)) continue;
+    const double distance = radius * std::sqrt(unit(generator)), angle = 2.0 * M_PI * unit(generator);
+    ++pairs;
+    hits += inside(x + distance * std::cos(angle), y + distance * std::sin(angle)) ? 0 : 1;
+  }
+  return static_cast<double>(hits) / pairs;
+}
+
+TEST(Estimate, ShareOfTheCircleInTheSolidMatchesRandomPairs) {
+  const double density = 3.27e6;
+  for (const double diameter : {2e-3, 6e-3, 20e-3}) {
+    geometry::PerforationLayout layout{0.05, 0.05, {{0.012, 0.013, diameter}, {0.037, 0.036, diameter}}};
+    const geometry::PerforationLayout none{0.05, 0.05, {}};
+    for (const double radius : {1.5e-3, 3e-3}) {
+      const double share =
+          expected_bonds_per_disc(layout, density, radius) / expected_bonds_per_disc(none, density, radius);
+      // 400,000 pairs: standard error below 0.0008.
+      EXPECT_NEAR(share, random_share(layout, radius, 7), 0.003) << diameter << " " << radius;
+    }
+  }
+}
+
+TEST(Estimate, AgreesWithAPackingThatIsMade) {
+  const DesignFolder folder;
+  DesignFile file(
+      folder.file("design.toml", small_design),
+      {"cell.width=20 mm", "cell.height=20 mm", "layout.diameter=9 mm", "loading.rate=0", "loading.until=0.6"});
+  const PackedDesign packed = pack_design(file, {}, 0);
+  solver::RunRequest request;
+  request.clipped = &packed.clipped;
+  request.layout = &packed.layout;
+  request.options = file.design().solver;
+  request.mean_diameter = 0.5044e-3;
+  const solver::RunEstimate counted = solver::estimate_run(request);
+  const DesignEstimate estimate = estimate_design(file, 1);
+  EXPECT_NEAR(static_cast<double>(estimate.discs), static_cast<double>(counted.discs),
+              0.03 * static_cast<double>(counted.discs));
+  EXPECT_NEAR(static_cast<double>(estimate.bonds), static_cast<double>(counted.bonds),
+              0.04 * static_cast<double>(counted.bonds));
+  EXPECT_NEAR(estimate.time_step, counted.time_step, 0.1 * counted.time_step);
+  EXPECT_NEAR(estimate.rate, counted.rate, 0.1 * counted.rate);
+  EXPECT_NEAR(static_cast<double>(estimate.steps), static_cast<double>(counted.steps),
+              0.15 * static_cast<double>(counted.steps));
+}
+
+TEST(Estimate, PhysicalMassesNeedShorterSteps) {
+  // model.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times longer
+  // in all.
+  const DesignFile uniform(designs / "table1.toml");
+  const DesignFile physical(designs / "table1.toml", {"dynamics.mass=physical"});
+  EXPECT_LT(estimate_design(physical, 1).time_step, 0.6 * estimate_design(uniform, 1).time_step);
+}
+
+TEST(Estimate, MoreThreadsTakeLessTime) {
+  const DesignFile design(designs / "table1.toml");
+  EXPECT_DOUBLE_EQ(estimate_design(design, 1).seconds, 4.0 * estimate_design(design, 4).seconds);
+}
+
+}  // namespace
+}  // namespace perfora::optimize
