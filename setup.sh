@@ -14,7 +14,7 @@ packages=(
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
   libgtest-dev libgmock-dev                     # tests
 )
-viewer_packages=(python3-paraview)
+viewer_packages=(python3-paraview python3-h5py)
 
 with_viewers=no
 list_only=no
