@@ -67,6 +67,7 @@ int main(int, char** arguments) {
       evaluation.status = perfora::solver::RunStatus::completed;
       evaluation.summary.plateau_stress = 1000.0 * request.replicate;
     }
+    if (request.replicate == 111) evaluation.status = perfora::solver::RunStatus::stopped;
     std::cout << to_json(evaluation, true).dump() << std::endl;
   }
 }
