@@ -12,7 +12,7 @@
 namespace perfora::report {
 namespace {
 
-constexpr int name_width = 34;
+constexpr int name_width = 38;
 constexpr std::size_t longest_list = 6;
 
 bool has(std::string_view key, std::string_view part) {
@@ -29,7 +29,8 @@ struct Unit {
 
 /// By the words of docs/formats.md: SI in the file, what people read here.
 Unit unit_of(std::string_view key) {
-  if (has(key, "ratio") || has(key, "per_") || has(key, "coordination") || ends(key, "_version")) return {1.0, ""};
+  if (has(key, "ratio") || has(key, "per_") || has(key, "coordination") || ends(key, "_version") || ends(key, "_pair"))
+    return {1.0, ""};
   if (has(key, "stress") && !has(key, "asymmetry")) return {1e-6, " MPa"};
   if (key == "target") return {1e-6, " MPa"};
   if (ends(key, "strain") || has(key, "fraction") || has(key, "porosity") || has(key, "undulation") ||
@@ -48,7 +49,7 @@ Unit unit_of(std::string_view key) {
 std::string number_text(std::string_view key, const nlohmann::json& value) {
   const Unit unit = unit_of(key);
   if (value.is_number_integer() && *unit.name == '\0') {
-    if (has(key, "seed") || ends(key, "_version")) return value.dump();
+    if (has(key, "seed") || ends(key, "_version") || ends(key, "_pair")) return value.dump();
     if (value.is_number_unsigned() && value.get<std::uint64_t>() > 999'999'999'999ull) return value.dump();
     return with_thousands(value.get<std::int64_t>());
   }

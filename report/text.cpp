@@ -26,7 +26,7 @@ constexpr const char* hdf5_signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t checksum_digits = 8;
 
 std::string line(const std::string& name, const std::string& value) {
-  return value.empty() ? std::string() : fmt::format("  {:<32}{}\n", name, value);
+  return value.empty() ? std::string() : fmt::format("  {:<36}{}\n", name, value);
 }
 
 std::string millimetres(double metres) {
@@ -51,7 +51,8 @@ std::string made_by(const Provenance& made) {
       line("program", made.program_version + (made.git_revision.empty() ? "" : " (" + made.git_revision + ")"));
   text += line("command", made.command_line);
   if (made.threads > 0)
-    text += line("ran on", fmt::format("{} threads for {} s", made.threads, short_number(made.seconds)));
+    text += line("ran on", fmt::format("{} thread{} for {} s", made.threads, made.threads == 1 ? "" : "s",
+                                       short_number(made.seconds)));
   return text;
 }
 
