@@ -8,9 +8,7 @@
 #include "app/summary_text.h"
 #include "io/schema.h"
 #include "optimize/estimate.h"
-#ifdef PERFORA_HAS_OPTIMIZE
 #include "optimize/study.h"
-#endif
 
 namespace perfora::app {
 
@@ -50,7 +48,7 @@ std::string estimate_text(const optimize::DesignEstimate& estimate, int threads)
   text += line("steps", count(estimate.steps));
   text += line("memory", memory_text(estimate.memory_bytes));
   text += line("disk", memory_text(estimate.disk_bytes));
-  text += line("time, roughly", fmt::format("{} on {} threads", duration_text(estimate.seconds), threads));
+  text += line("time, roughly", fmt::format("{} on {}", duration_text(estimate.seconds), threads_text(threads)));
   return text;
 }
 
@@ -103,8 +101,7 @@ int check_design(const CheckFlags& flags) {
   return report(flags, "design", nullptr, "", design, design.validate());
 }
 
-int check_study_file([[maybe_unused]] const CheckFlags& flags) {
-#ifdef PERFORA_HAS_OPTIMIZE
+int check_study_file(const CheckFlags& flags) {
   const optimize::StudyEstimate study = optimize::check_study(flags.file, flags.common.overrides());
   const double seconds = optimize::estimate_design(*study.start, flags.common.thread_count()).seconds;
   json arms = json::array();
@@ -121,9 +118,6 @@ int check_study_file([[maybe_unused]] const CheckFlags& flags) {
                        {"seconds", seconds * static_cast<double>(study.simulations)},
                        {"arms", arms}};
   return report(flags, "study", object, text, *study.start, study.warnings);
-#else
-  throw io::InputError({flags.file, 0, "study"}, "this program was built without the search");
-#endif
 }
 
 }  // namespace

@@ -142,6 +142,11 @@ void install_stop_handlers() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void remove_stop_handlers() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
 ProgressLine::ProgressLine(std::string title, bool quiet) : title_(std::move(title)), quiet_(quiet) {}
 
 void ProgressLine::update(double fraction, const std::string& detail) {

@@ -56,9 +56,11 @@ void print_text(const std::string& text);
 const std::string& command_line();
 void set_command_line(int argc, char** argv);
 
-/// SIGINT and SIGTERM ask the running compression to write a checkpoint and stop; a second one ends the program at
-/// once.
+/// SIGINT and SIGTERM ask the running compression or search to write a checkpoint and stop; a second one ends the
+/// program at once.
 void install_stop_handlers();
+/// They end the program at once: for subcommands without checkpoints, whose outputs appear whole at their end.
+void remove_stop_handlers();
 
 /// Draws io::Progress lines for EvaluateOptions::progress; silent when quiet. It must outlive the callbacks it gives.
 class ProgressLine {

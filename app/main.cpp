@@ -26,14 +26,10 @@ int run(int argc, char** argv) {
       "75 stopped by a signal or a time limit with a checkpoint written (go on with --resume).");
   app::add_pack(program, exit_code);
   app::add_evaluate(program, exit_code);
-#ifdef PERFORA_HAS_OPTIMIZE
   app::add_optimize(program, exit_code);
-#endif
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);
-#ifdef PERFORA_HAS_REPORT
   app::add_plot(program, exit_code);
-#endif
   app::add_worker(program, exit_code);
   app::add_reference(program, exit_code);
   try {

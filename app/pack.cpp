@@ -28,6 +28,7 @@ double peak_memory() {
 
 int pack(const PackFlags& flags) {
   flags.common.apply();
+  remove_stop_handlers();
   const optimize::DesignFile design(flags.design, flags.common.overrides());
   const std::vector<std::string> warnings = design.validate();
   const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));

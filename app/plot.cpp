@@ -17,6 +17,7 @@ struct PlotFlags {
 
 int plot(const PlotFlags& flags) {
   flags.common.apply();
+  remove_stop_handlers();
   const std::filesystem::path input = flags.input;
   const std::string format = io::Hdf5Reader(input).attribute_text("/", "format");
   const auto output = output_or_default(flags.output, default_name(input, ".png"));

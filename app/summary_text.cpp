@@ -105,8 +105,9 @@ std::string line_text(const std::string& label, const std::string& value) {
 std::string wall_pair_text(const json& object) {
   const auto pair = object.find("thinnest_wall_pair");
   if (pair == object.end() || !pair->is_array() || pair->size() != 2) return {};
-  return line_text("  between perforations",
-                   fmt::format("{} and {} (counted from 0)", pair->at(0).dump(), pair->at(1).dump()));
+  const auto first = pair->at(0).get<int>() + 1, second = pair->at(1).get<int>() + 1;  // people count from 1
+  return line_text("  between perforations", first == second ? fmt::format("{} and its periodic image", first)
+                                                             : fmt::format("{} and {}", first, second));
 }
 
 /// What to print for a key; empty: nothing (walls where there are no perforations).
@@ -146,8 +147,8 @@ std::string performance_text(const json& object) {
     return found->contains(key) && found->at(key).is_number() ? found->at(key).get<double>() : NAN;
   };
   std::string text = "Performance\n";
-  text +=
-      line_text("time", fmt::format("{} on {} threads", duration_text(number("seconds")), found->value("threads", 1)));
+  text += line_text(
+      "time", fmt::format("{} on {}", duration_text(number("seconds")), threads_text(found->value("threads", 1))));
   if (std::isfinite(number("steps_per_second")))
     text += line_text("steps per second", fmt::format("{:.4g}", number("steps_per_second")));
   if (std::isfinite(number("ns_per_bond_step")))
@@ -217,6 +218,10 @@ std::string length_text(double metres) {
   if (size >= 1.0) return fmt::format("{:.4g} m", metres);
   if (size >= 1e-4 || size == 0.0) return fmt::format("{:.4g} mm", 1e3 * metres);
   return fmt::format("{:.4g} um", 1e6 * metres);
+}
+
+std::string threads_text(int threads) {
+  return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
 }
 
 std::string memory_text(double bytes) {

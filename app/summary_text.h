@@ -16,6 +16,8 @@ std::string with_thousands(double count);
 std::string stress_text(double pascal);
 /// m as "0.504 mm", "25 mm", "1.2 m", ...
 std::string length_text(double metres);
+/// "1 thread", "2 threads".
+std::string threads_text(int threads);
 /// Bytes as "12 MB", "1.3 GB".
 std::string memory_text(double bytes);
 /// "45 s", "3 min 20 s", "2 h 05 min", "14 d 3 h".

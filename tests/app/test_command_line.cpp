@@ -1,0 +1,252 @@
+// What is here: the subcommands run as a user runs them: outputs, exit codes, JSON alone on standard output, signals,
+// resume. What is not: broken input (bad_input/). Expected: exit codes of the documentation, and agreement between runs
+// that must agree.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+namespace perfora::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output, error;
+};
+
+std::string read_text(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class CommandLine : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = fs::temp_directory_path() / "perfora-command.XXXXXX";
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    // One hole of 6 mm in 12 x 12 mm, some 380 discs, pressed fast and not far.
+    std::ofstream(folder_ / "d.toml") << "title = \"small\"\n[cell]\nwidth = \"12 mm\"\nheight = \"12 mm\"\n"
+                                         "[layout]\nfamily = \"square\"\nrows = 1\ncolumns = 1\ndiameter = \"6 mm\"\n"
+                                         "[packing]\nsolid_fraction = 0.719\n[loading]\nuntil = 0.01\nrate = 40\n"
+                                         "[measures]\nplateau_start = 0.002\nplateau_end = 0.008\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string line =
+        "cd '" + folder_.string() + "' && '" PERFORA_PROGRAM "' " + arguments + " > out.txt 2> err.txt";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder_ / "out.txt"),
+            read_text(folder_ / "err.txt")};
+  }
+  /// Without what depends on the clock.
+  static json comparable(const std::string& text) {
+    json record = json::parse(text);
+    record.erase("performance");
+    for (auto& one : record["runs"]) one.erase("performance");
+    return record;
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
+  for (const std::string command : {"", "pack", "evaluate", "optimize", "check", "show", "plot"}) {
+    const Outcome help = run(command + " --help");
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.error, "") << command;
+    EXPECT_THAT(help.output, HasSubstr("Usage: perfora")) << command;
+  }
+  EXPECT_THAT(run("--version").output, StartsWith("perfora 0."));
+  EXPECT_THAT(run("--help").output, ::testing::Not(HasSubstr("worker"))) << "hidden";
+}
+
+TEST_F(CommandLine, UsageErrorsAreOneLineAndExitCodeOne) {
+  for (const std::string arguments :
+       {"", "pack", "pack d.toml more.toml", "evaluate d.toml --threads many", "evaluate d.toml --until",
+        "evaluate d.toml --resume --force", "plot", "--sead 3", "pack d.toml --seed 1.5"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments;
+    EXPECT_EQ(outcome.output, "") << arguments;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  }
+}
+
+TEST_F(CommandLine, PackWritesShowAndPlotRead) {
+  const Outcome packed = run("pack d.toml --json -o p.h5");
+  ASSERT_EQ(packed.exit_code, 0) << packed.error;
+  const json record = json::parse(packed.output);
+  EXPECT_EQ(record["schema"], "perfora.pack/1");
+  EXPECT_EQ(record["perforations"], 1);
+  EXPECT_EQ(json::parse(run("show p.h5 --json").output), record);
+  EXPECT_THAT(run("show p.h5").output, HasSubstr("bonds per disc"));
+  EXPECT_EQ(run("plot p.h5 -o p.png").exit_code, 0);
+  EXPECT_GT(fs::file_size(folder_ / "p.png"), 1000u);
+}
+
+TEST_F(CommandLine, WithoutAnOutputANameIsTakenAndTold) {
+  const Outcome packed = run("pack d.toml");
+  EXPECT_EQ(packed.exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "d-packing.h5"));
+  EXPECT_THAT(packed.error, HasSubstr("d-packing.h5"));
+}
+
+TEST_F(CommandLine, AnOutputThatExistsNeedsForce) {
+  ASSERT_EQ(run("pack d.toml -o p.h5").exit_code, 0);
+  const Outcome refused = run("pack d.toml -o p.h5");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("--force"));
+  EXPECT_EQ(run("pack d.toml -o p.h5 --force").exit_code, 0);
+}
+
+TEST_F(CommandLine, EvaluateWritesItsFilesAndPrintsOneObject) {
+  const Outcome outcome = run("evaluate d.toml -o r.h5 --json --threads 1");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  EXPECT_EQ(record["schema"], "perfora.evaluate/1");
+  EXPECT_EQ(record["status"], "completed");
+  EXPECT_EQ(record["performance"]["threads"], 1);
+  for (const char* name : {"r.h5", "r.csv", "r.xdmf"}) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  EXPECT_FALSE(fs::exists(folder_ / "r.part"));
+  EXPECT_THAT(read_text(folder_ / "r.csv"), HasSubstr("stress_yy"));
+  EXPECT_EQ(json::parse(run("show r.h5 --json").output), record);
+  EXPECT_EQ(run("plot r.h5 -o r.png").exit_code, 0);
+}
+
+TEST_F(CommandLine, PackingFromAFileIsTheSameEvaluation) {
+  ASSERT_EQ(run("pack d.toml -o p.h5 --seed 4").exit_code, 0);
+  const Outcome from_file = run("evaluate d.toml -o a.h5 --json --threads 1 --seed 4 --packing p.h5");
+  const Outcome made = run("evaluate d.toml -o b.h5 --json --threads 1 --seed 4");
+  EXPECT_EQ(comparable(from_file.output), comparable(made.output));
+  EXPECT_EQ(read_text(folder_ / "a.csv"), read_text(folder_ / "b.csv"));
+}
+
+TEST_F(CommandLine, SeedsCanBeSetApart) {
+  const json whole = json::parse(run("pack d.toml --json -o a.h5 --seed 9").output)["seeds"];
+  const std::string flags = " --packing-seed " + whole["packing"].dump() + " --noise-seed " + whole["noise"].dump() +
+                            " --layout-seed " + whole["layout"].dump() + " --search-seed " + whole["search"].dump();
+  EXPECT_EQ(json::parse(run("pack d.toml --json -o b.h5" + flags).output)["seeds"], whole);
+  EXPECT_NE(json::parse(run("pack d.toml --json -o c.h5 --seed 10").output)["seeds"], whole);
+}
+
+TEST_F(CommandLine, SetAndUntilReachTheDesign) {
+  const Outcome outcome = run("evaluate d.toml -o r.h5 --json --threads 1 --until '0.5 %' --set layout.diameter=5mm");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  EXPECT_NEAR(record["final_strain"].get<double>(), 0.005, 1e-9);
+  EXPECT_NEAR(record["thinnest_wall"].get<double>(), 0.007, 1e-12);
+  EXPECT_TRUE(record["plateau_stress"].is_null());
+}
+
+TEST_F(CommandLine, AWallTimeStopsWithACheckpointAndResumeEndsTheSame) {
+  const std::string command = "evaluate d.toml --json --threads 1 ";
+  const Outcome stopped = run(command + "-o r.h5 --wall-time 1e-6");
+  EXPECT_EQ(stopped.exit_code, 75);
+  EXPECT_EQ(json::parse(stopped.output)["status"], "stopped");
+  EXPECT_TRUE(fs::exists(folder_ / "r.part"));
+  EXPECT_EQ(run(command + "-o r.h5").exit_code, 1) << "neither --resume nor --force";
+  const Outcome resumed = run(command + "-o r.h5 --resume");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_FALSE(fs::exists(folder_ / "r.part"));
+  EXPECT_EQ(comparable(resumed.output), comparable(run(command + "-o s.h5").output));
+  EXPECT_EQ(read_text(folder_ / "r.csv"), read_text(folder_ / "s.csv"));
+  const Outcome again = run(command + "-o r.h5 --resume");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.output, resumed.output) << "a finished run is read, not run";
+}
+
+TEST_F(CommandLine, ASignalStopsWithACheckpoint) {
+  const std::string output = folder_ / "long.h5", design = folder_ / "d.toml";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(PERFORA_PROGRAM, "perfora", "evaluate", design.c_str(), "-o", output.c_str(), "--quiet", "--threads", "1",
+            "--set", "loading.rate=0.01", "--set", "output.checkpoint_interval=0.05", nullptr);
+    ::_exit(127);
+  }
+  for (int k = 0; k < 600 && !fs::exists(folder_ / "long.part/checkpoint.h5"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_TRUE(fs::exists(folder_ / "long.part/checkpoint.h5"));
+  ::kill(child, SIGTERM);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 75);
+  EXPECT_TRUE(fs::exists(folder_ / "long.part/checkpoint.h5"));
+}
+
+TEST_F(CommandLine, ReplicatesMakeAnEnsemble) {
+  const Outcome outcome = run("evaluate d.toml --replicates 2 -o e --json --threads 1");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  EXPECT_EQ(record["schema"], "perfora.ensemble/1");
+  EXPECT_EQ(record["statistics"]["plateau_stress"]["count"], 2);
+  for (const char* name : {"replicate-000.h5", "replicate-001.csv", "ensemble.json", "ensemble.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / "e" / name)) << name;
+  EXPECT_EQ(json::parse(run("show e --json").output), record);
+  EXPECT_THAT(run("show e").output, HasSubstr("over the replicates"));
+  EXPECT_EQ(run("evaluate d.toml --replicates 2 -o e").exit_code, 1);
+  const Outcome resumed = run("evaluate d.toml --replicates 3 -o e --json --threads 1 --resume");
+  EXPECT_EQ(json::parse(resumed.output)["statistics"]["plateau_stress"]["count"], 3);
+  EXPECT_THAT(resumed.error, HasSubstr("was finished"));
+}
+
+TEST_F(CommandLine, CheckSaysWhatWouldRun) {
+  const fs::path designs = fs::path(PERFORA_SOURCE_DIR) / "designs";
+  const Outcome table1 = run("check '" + (designs / "table1.toml").string() + "' --json --threads 2");
+  ASSERT_EQ(table1.exit_code, 0) << table1.error;
+  const json record = json::parse(table1.output);
+  EXPECT_EQ(record["kind"], "design");
+  EXPECT_NEAR(record["discs"].get<double>(), 36607.0, 366.0);  // Table 1
+  EXPECT_EQ(record["warnings"].size(), 0u);
+  const json study = json::parse(run("check '" + (designs / "study-quick.toml").string() + "' --json").output);
+  EXPECT_EQ(study["kind"], "study");
+  EXPECT_GT(study["study"]["candidates"].get<int>(), 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"d.toml", "err.txt", "out.txt"})) << "check writes nothing";
+}
+
+TEST_F(CommandLine, QuietLeavesResultsAndWarnings) {
+  const Outcome outcome = run("pack d.toml --quiet -o p.h5");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.error, "");
+  EXPECT_THAT(outcome.output, HasSubstr("bonds per disc"));
+}
+
+TEST_F(CommandLine, AWorkerAnswersLineByLine) {
+  const json bad = {{"design", "[layout]\ndiameter = \"24 mm\"\n"}, {"replicate", 1}, {"until", 0.0}};
+  const json good = {{"design", read_text(folder_ / "d.toml")}, {"replicate", 0}, {"until", 0.002}};
+  std::ofstream(folder_ / "requests") << bad.dump() << "\n" << good.dump() << "\n";
+  const Outcome outcome = run("worker --quiet < requests");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  std::istringstream lines(outcome.output);
+  std::string first, second, rest;
+  std::getline(lines, first);
+  std::getline(lines, second);
+  EXPECT_EQ(json::parse(first)["status"], "failed");
+  EXPECT_EQ(json::parse(first)["replicate"], 1);
+  EXPECT_EQ(json::parse(second)["status"], "completed");
+  EXPECT_GT(json::parse(second)["curve"]["strain_yy"].size(), 2u);
+  EXPECT_FALSE(std::getline(lines, rest));
+}
+
+}  // namespace
+}  // namespace perfora::test
