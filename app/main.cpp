@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/thread_policy.h"
 #include "app/usage_error.h"
 #include "io/error.h"
 #include "io/provenance.h"
@@ -43,6 +44,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  perfora::app::let_waiting_threads_sleep(argv);
   try {
     return run(argc, argv);
   } catch (const perfora::io::InputError& error) {
