@@ -6,6 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/size_law.h"
+#include "optimize/estimate_stepping.h"
+
+#include "solver/mass.h"
+#include "solver/noise.h"
+
 namespace perfora::optimize {
 
 namespace {
@@ -40,85 +46,39 @@ double shared_hole_area(const geometry::PerforationLayout& layout, double radius
 struct Discs {
   std::int64_t count = 0;
   double mean_diameter = 0.0;
-  double solid_fraction = 0.0;
+  std::vector<double> diameters;  ///< a sample
 };
-
-/// What compaction reaches for the default size law, where the design leaves the fraction to it.
-constexpr double jamming_fraction = 0.85;
-
-double expected_fraction(const geometry::PackingOptions& packing) {
-  return packing.solid_fraction > 0.0 ? packing.solid_fraction : jamming_fraction;
-}
 
 Discs periodic_discs(const Design& design) {
   const double width = design.layout.width, height = design.layout.height;
-  if (!design.packing.file.empty()) {
-    const geometry::Packing packing = geometry::import_packing(design.packing.file, width, height);
-    return {packing.size(), packing.mean_diameter(), packing.quality.solid_fraction};
+  const geometry::PackingOptions& options = design.packing;
+  if (!options.file.empty()) {
+    const geometry::Packing packing = geometry::import_packing(options.file, width, height);
+    Discs discs{packing.size(), packing.mean_diameter(), {}};
+    for (const double radius : packing.radius) discs.diameters.push_back(2.0 * radius);
+    return discs;
   }
-  return {geometry::expected_discs(design.packing, width, height), design.packing.mean_diameter,
-          expected_fraction(design.packing)};
+  Discs discs{geometry::expected_discs(options, width, height), options.mean_diameter, {}};
+  const geometry::SizeLaw law{
+      geometry::size_law_exponent(options.mean_diameter, options.maximum_diameter, options.size_ratio),
+      options.size_ratio};
+  constexpr int sizes = 500;
+  for (int k = 0; k < sizes; ++k) discs.diameters.push_back(options.maximum_diameter * law.quantile((k + 0.5) / sizes));
+  return discs;
 }
 
-/// Lengths of bonds: pairs spread evenly over the circle of the horizon, less a core that keeps the discs apart.
-struct BondLengths {
-  double mean = 0.0, mean_square = 0.0;
-};
-
-BondLengths bond_lengths(double density, double radius) {
-  const double core = std::min(0.5 * radius, std::sqrt(missing_discs / (std::numbers::pi * density)));
-  const double ring = radius * radius - core * core;
-  return {2.0 / 3.0 * (std::pow(radius, 3) - std::pow(core, 3)) / ring, 0.5 * (radius * radius + core * core)};
-}
-
-/// Largest K_i/m_i + KR_i/I_i over the discs: the same for all with a uniform step, that of the smallest disc
-/// otherwise.
-double stiffness_over_mass(const Design& design, const Discs& discs, const BondLengths& lengths, double bonds_per_disc,
-                           double density) {
-  const solver::MaterialOptions& material = design.solver.material;
-  const double translation = 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
-                             6.0 * material.normal_stiffness;
-  if (design.solver.dynamics.mass == solver::MassScaling::uniform_step)
-    return 2.0 * translation * density / (material.density * discs.solid_fraction);
-  const double radius = 0.5 * design.packing.maximum_diameter / design.packing.size_ratio;
-  const double mass = material.density * std::numbers::pi * radius * radius;
-  const double rotation =
-      material.tangential_stiffness * (0.25 * bonds_per_disc * lengths.mean_square + 6.0 * radius * radius);
-  return translation / mass + rotation / (0.5 * mass * radius * radius);
-}
-
-double threshold_factor(const solver::MaterialOptions& material, double mean_diameter) {
-  const double ratio = mean_diameter / material.reference_mean_diameter;
-  if (material.threshold_scaling == solver::ThresholdScaling::strength) return ratio;
-  if (material.threshold_scaling == solver::ThresholdScaling::toughness) return std::sqrt(ratio);
-  return 1.0;
-}
-
-/// Step and rate as the solver takes them (solver/mass.h), with means of a whole packing in place of its bonds.
-void estimate_stepping(const Design& design, const geometry::PerforationLayout& layout, const Discs& discs,
-                       DesignEstimate& estimate) {
-  const solver::MaterialOptions& material = design.solver.material;
-  const solver::LoadingOptions& loading = design.solver.loading;
+/// Steps in whole rows, as the solver makes them.
+void estimate_steps(const Design& design, const geometry::PerforationLayout& layout, const Discs& discs,
+                    DesignEstimate& estimate) {
   const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
-  const double solid = layout.solid_area_fraction();
-  const BondLengths lengths = bond_lengths(density, estimate.horizon_radius);
-  const double stiffness = stiffness_over_mass(design, discs, lengths, estimate.bonds_per_disc, density);
-  const double critical = 2.0 / std::sqrt(2.0 * stiffness * (1.0 + design.solver.dynamics.cundall_damping));
-
-  constexpr double network_share = 0.85;  // of Voigt's bound that a relaxed packing keeps
-  const double squares = 0.5 * density * solid * estimate.bonds_per_disc * lengths.mean_square;
-  const double voigt = squares * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
-  const double wave_speed =
-      std::sqrt(network_share * voigt * solid * solid / (material.density * discs.solid_fraction * solid));
-  const double peak_strain =
-      material.critical_shear_displacement * threshold_factor(material, discs.mean_diameter) / lengths.mean;
-  estimate.rate = loading.rate > 0.0 ? loading.rate : peak_strain * wave_speed / (loading.transits * layout.height);
-
+  const SteppingEstimate stepping = estimate_stepping(
+      design.solver, layout, {density, discs.mean_diameter, estimate.bonds_per_disc, discs.diameters});
+  estimate.rate = stepping.rate;
   const double interval = design.solver.output.history_interval;
-  const double steps_per_row =
-      std::max(1.0, std::ceil(interval / (estimate.rate * design.solver.dynamics.step_factor * critical)));
+  const double steps_per_row = std::max(1.0, std::ceil(interval / (estimate.rate * stepping.time_step)));
   estimate.time_step = interval / (estimate.rate * steps_per_row);
-  estimate.steps = std::llround(std::ceil(loading.until / interval - 1e-9) * steps_per_row);
+  constexpr double rounding = 1e-9;
+  estimate.steps = std::llround(std::ceil(design.solver.loading.until / interval - rounding) * steps_per_row);
 }
 
 double frame_count(const solver::SolverOptions& options) {
@@ -171,7 +131,7 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   estimate.bonds_per_disc =
       expected_bonds_per_disc(layout, static_cast<double>(discs.count) / cell, estimate.horizon_radius);
   estimate.bonds = std::llround(0.5 * estimate.bonds_per_disc * static_cast<double>(estimate.discs));
-  estimate_stepping(design, layout, discs, estimate);
+  estimate_steps(design, layout, discs, estimate);
   estimate_resources(design, threads, estimate);
   return estimate;
 }
