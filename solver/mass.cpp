@@ -126,6 +126,24 @@ double threshold_factor(const MaterialOptions& material, double mean_diameter) {
   return 1.0;
 }
 
+LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options) {
+  LoadingEstimate e;
+  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
+  // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule (docs/theory.md).
+  constexpr double network_share = 0.85;  // of Voigt that a relaxed packing keeps
+  e.modulus = network_share * block.voigt_modulus * (1.0 - block.porosity);
+  e.bulk_density = block.bulk_density;
+  e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
+  // Walls shear off when bonds of mean length reach delta_t^0; with a spread of strengths, earlier by about that
+  // spread.
+  constexpr double least_strength = 0.25;  // keeps the rate finite for very wide spreads
+  e.peak_strain = options.material.critical_shear_displacement *
+                  threshold_factor(options.material, block.mean_diameter) / block.mean_bond_length *
+                  std::max(least_strength, block.strength);
+  e.rate = e.peak_strain * e.wave_speed / (options.loading.transits * block.height);
+  return e;
+}
+
 LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options,
                                  double width, double height, double porosity, double mean_diameter) {
   const MaterialOptions& material = options.material;
@@ -134,24 +152,17 @@ LoadingEstimate estimate_loading(const BondNetwork& network, const MassPropertie
     square_lengths += l * l;
     lengths += l;
   }
-  const double area = width * height;
-  LoadingEstimate e;
-  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
-  // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule (docs/theory.md).
-  constexpr double network_share = 0.85;  // of Voigt that a relaxed packing keeps
-  const double voigt = square_lengths / area * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
-  e.modulus = network_share * voigt * (1.0 - porosity);
-  e.bulk_density = masses.total / area;
-  e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
-  // Walls shear off when bonds of mean length reach delta_t^0; with a spread of strengths, earlier by about that
-  // spread.
-  const double mean_length = network.size() > 0 ? lengths / static_cast<double>(network.size()) : mean_diameter;
   const StrengthStatistics strength = strength_statistics(network);
-  constexpr double least_share = 0.25;  // keeps the rate finite for very wide spreads
-  e.peak_strain = material.critical_shear_displacement * threshold_factor(material, mean_diameter) / mean_length *
-                  std::max(least_share, strength.mean - strength.deviation);
-  e.rate = e.peak_strain * e.wave_speed / (options.loading.transits * height);
-  return e;
+  BlockMeans block;
+  block.voigt_modulus =
+      square_lengths / (width * height) * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
+  block.porosity = porosity;
+  block.bulk_density = masses.total / (width * height);
+  block.mean_bond_length = network.size() > 0 ? lengths / static_cast<double>(network.size()) : mean_diameter;
+  block.mean_diameter = mean_diameter;
+  block.height = height;
+  block.strength = strength.mean - strength.deviation;
+  return estimate_loading(block, options);
 }
 
 }  // namespace perfora::solver

@@ -40,6 +40,22 @@ struct LoadingEstimate {
 LoadingEstimate estimate_loading(const BondNetwork& network, const MassProperties& masses, const SolverOptions& options,
                                  double width, double height, double porosity, double mean_diameter);
 
+/// The means that the loading estimate needs, counted from a network or expected of one.
+struct BlockMeans {
+  double voigt_modulus = 0.0;     ///< C11 of the whole cell under affine strain, Pa
+  double porosity = 0.0;          ///< share of the perforations
+  double bulk_density = 0.0;      ///< kg/m3 of the whole cell
+  double mean_bond_length = 0.0;  ///< m
+  double mean_diameter = 0.0;     ///< <d>, m
+  double height = 0.0;            ///< m
+  double strength = 1.0;          ///< mean strength factor less its standard deviation
+};
+LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options);
+
+/// Critical step by power iteration over the bound per disc, for uniform_step: measured 1.43 to 1.44 on Table 1's
+/// networks.
+inline constexpr double uniform_step_gain = 1.43;
+
 /// Factor on the critical displacements for this disc size (model.md, "Resolution and fidelity").
 double threshold_factor(const MaterialOptions& material, double mean_diameter);
 
