@@ -222,9 +222,9 @@ int optimize_study(const OptimizeFlags& flags) {
   if (flags.resume && flags.common.force)
     throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
   optimize::Study study = optimize::read_study(flags.study, flags.common.overrides());
-  announce(study);
   const optimize::StudyRunOptions options = run_options(flags, study);
   optimize::StudyRun run(std::move(study), options);
+  announce(run.study());
   run.run();
   optimize::write_results(run);
   auto status = run.status();

@@ -20,8 +20,9 @@ constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr double curve_step = 0.005;
 
 /// Everything a study writes into its folder; --force removes these and nothing else.
-constexpr const char* own_files[] = {"journal.jsonl", "result.json", "best.toml",       "best.h5",  "best.csv",
-                                     "best.xdmf",     "best.part",   "evaluations.csv", "best.png", "study.png"};
+constexpr const char* own_files[] = {"journal.jsonl",   "result.json", "best.toml",    "best.h5",
+                                     "best.csv",        "best.xdmf",   "best.xdmf.h5", "best.part",
+                                     "evaluations.csv", "best.png",    "study.png"};
 
 /// Keys that may differ on resume: they only say how far to go, and the points on the way there stay the same.
 bool may_change(const std::string& key) {
