@@ -14,14 +14,9 @@
 #include "optimize/evaluation.h"
 #include "optimize/study_result.h"
 #include "optimize/study_run.h"
-#include "solver/run.h"
-#ifdef PERFORA_HAS_REPORT
 #include "report/plot.h"
-#if __has_include("report/plot_study.h")
 #include "report/plot_study.h"
-#define PERFORA_HAS_PLOT_STUDY
-#endif
-#endif
+#include "solver/run.h"
 
 namespace perfora::app {
 
@@ -79,8 +74,10 @@ bool is_run_of(const fs::path& run_file, const optimize::DesignFile& design) {
 solver::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) {
   const optimize::DesignFile design = optimize::design_of(run.study(), *run.plan().best);
   const fs::path run_file = run.options().folder / "best.h5";
-  if (fs::exists(run_file) && is_run_of(run_file, design)) return solver::RunStatus::completed;
-  fs::remove(run_file);
+  if (fs::exists(run_file) && !is_run_of(run_file, design)) {  // an earlier best, before maxeval was raised
+    fs::remove(run_file);
+    fs::remove_all(run.options().folder / "best.part");
+  }
   ProgressLine progress("best design", flags.common.quiet);
   optimize::EvaluateOptions options;
   options.threads = flags.common.thread_count();
@@ -94,7 +91,6 @@ solver::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) 
   return evaluation.status;
 }
 
-#ifdef PERFORA_HAS_PLOT_STUDY
 using optimize::Candidate;
 using optimize::Study;
 
@@ -180,20 +176,15 @@ report::StudyPicture picture_of(optimize::StudyRun& run) {
   add_facts(picture, run);
   return picture;
 }
-#endif
 
 void draw(optimize::StudyRun& run) {
   const fs::path& folder = run.options().folder;
-#ifdef PERFORA_HAS_PLOT_STUDY
   report::plot_study(picture_of(run), folder / "study.png");
-#endif
-#ifdef PERFORA_HAS_REPORT
   if (!fs::exists(folder / "best.h5")) return;
   report::PlotOptions options;
   options.title = "best design of " + run.study().file.stem().string();
   options.target_stress = run.study().target.plateau_stress;
   report::plot_run(folder / "best.h5", folder / "best.png", options);
-#endif
 }
 
 std::string finals_text(const optimize::Finals& finals) {
