@@ -108,7 +108,7 @@ int check_study_file(const CheckFlags& flags) {
   std::string text = "Study\n";
   text += line("candidates", with_thousands(static_cast<double>(study.candidates)));
   text += line("compressions, at most", with_thousands(static_cast<double>(study.simulations)));
-  text += line("time, roughly", duration_text(seconds * static_cast<double>(study.simulations)));
+  text += line("time, roughly (each like the start)", duration_text(seconds * static_cast<double>(study.simulations)));
   for (const optimize::Arm& arm : study.arms) {
     arms.push_back({{"name", arm.name}, {"maxeval", arm.maxeval}});
     text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));

@@ -51,6 +51,31 @@ void say_how_it_ended(solver::RunStatus status, const std::string& reason, const
   if (status == solver::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
+/// What the run itself says against its numbers (docs/theory.md, "Ledger").
+std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluation,
+                                           const solver::LoadingOptions& loading) {
+  constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;
+  const solver::Summary& s = evaluation.summary;
+  std::vector<std::string> warnings;
+  if (s.max_overlap_in_run > small_overlap)
+    warnings.push_back(
+        fmt::format("the largest overlap reached {:.0f} % of <d>, beyond 5 %: the rubble is pressed together more than "
+                    "discs can bear; "
+                    "take the stress of the last strains as a lower bound",
+                    100.0 * s.max_overlap_in_run));
+  if (s.kinetic_ratio_at_peak > small_kinetic_share)
+    warnings.push_back(fmt::format(
+        "kinetic energy was {:.0f} % of the elastic one at the first peak: not quasi-static; raise loading.transits",
+        100.0 * s.kinetic_ratio_at_peak));
+  if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
+    warnings.push_back(
+        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} asked for: the block is stiffer "
+                    "or weaker than "
+                    "estimated; raise loading.transits",
+                    s.transits_before_peak, loading.transits));
+  return warnings;
+}
+
 int evaluate_one(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
   const std::vector<std::string> warnings = design.validate();
@@ -66,6 +91,7 @@ int evaluate_one(const EvaluateFlags& flags) {
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
   progress.finish(fmt::format("{}, {}", evaluation.reason, duration_text(evaluation.performance.seconds)));
   if (std::filesystem::exists(output)) write_beside(output);
+  log_warnings(validity_warnings(evaluation, design.design().solver.loading));
   const auto record = optimize::to_json(evaluation, false);
   if (flags.common.json)
     print_json(record);

@@ -1,6 +1,8 @@
 // What is here: see outputs.h.
 #include "app/outputs.h"
 
+#include <array>
+
 #include "io/error.h"
 #include "io/journal.h"
 #include "report/run_result.h"
@@ -18,6 +20,11 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
   if (run_file.extension() != ".h5")
     throw io::InputError({"-o", 0, run_file.string()}, "the run file does not end in .h5", "a name such as result.h5");
   io::check_output(run_file, force, resume);
+  const std::array<fs::path, 3> beside = {fs::path(run_file).replace_extension(".csv"),
+                                          fs::path(run_file).replace_extension(".xdmf"),
+                                          fs::path(run_file).replace_extension(".xdmf.h5")};
+  if (!resume)
+    for (const fs::path& path : beside) io::check_output(path, force, false);
   const fs::path part = part_folder(run_file);
   if (resume) return;
   if (fs::exists(part) && !force)
@@ -26,6 +33,7 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
   // Both go, or --resume would find the old run's end beside the new one's beginning.
   fs::remove_all(part);
   fs::remove(run_file);
+  for (const fs::path& path : beside) fs::remove(path);
 }
 
 void write_beside(const fs::path& run_file) {

@@ -1,11 +1,14 @@
 // What is here: `perfora show`: the summary that a file or folder written by perfora holds. What is not: how summaries
 // read (summary_text.h).
+#include <optional>
+
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "io/error.h"
 #include "io/hdf5.h"
 #include "io/journal.h"
+#include "report/text.h"
 
 namespace perfora::app {
 
@@ -20,7 +23,8 @@ struct ShowFlags {
 };
 
 const char* what_show_reads =
-    "a run R.h5, a packing P.h5, a study.h5, the folder of a study or an ensemble, or one of perfora's JSON files";
+    "a run, packing or checkpoint (.h5), a journal, a design or study, the folder of a study or an ensemble, or one of "
+    "perfora's JSON files";
 
 json parse_summary(const std::string& text, const fs::path& path) {
   json object = json::parse(text, nullptr, false);
@@ -29,31 +33,19 @@ json parse_summary(const std::string& text, const fs::path& path) {
   return object;
 }
 
-json summary_of_hdf5(const fs::path& path) {
-  const io::Hdf5Reader file(path);
-  if (!file.has_attribute("/", "format") || !file.has("/summary"))
-    throw io::InputError({path.string(), 0, "format"}, "perfora did not write this file, or not its summary",
-                         what_show_reads);
-  return parse_summary(file.text("/summary"), path);
-}
-
-json summary_of_folder(const fs::path& folder) {
-  for (const char* name : {"study.h5", "ensemble.json"}) {
-    const fs::path path = folder / name;
-    if (fs::exists(path))
-      return path.extension() == ".h5" ? summary_of_hdf5(path) : parse_summary(io::read_file(path), path);
+/// The record of a result; nothing for files that have none (checkpoints, journals, designs, folders of unfinished
+/// work).
+std::optional<json> summary_of(const fs::path& path) {
+  if (fs::is_directory(path)) {
+    for (const char* name : {"result.json", "ensemble.json"})
+      if (fs::exists(path / name)) return parse_summary(io::read_file(path / name), path / name);
+    return std::nullopt;
   }
-  throw io::InputError({folder.string(), 0, ""}, "the folder holds neither study.h5 nor ensemble.json",
-                       what_show_reads);
-}
-
-json summary_of(const fs::path& path) {
-  if (fs::is_directory(path)) return summary_of_folder(path);
   if (path.extension() == ".json") return parse_summary(io::read_file(path), path);
-  if (path.extension() == ".toml")
-    throw io::InputError({path.string(), 0, ""}, "is a design or study, not a result", what_show_reads,
-                         "use `perfora check` for it");
-  return summary_of_hdf5(path);
+  if (path.extension() != ".h5") return std::nullopt;
+  const io::Hdf5Reader file(path);
+  if (!file.has("/summary")) return std::nullopt;
+  return parse_summary(file.text("/summary"), path);
 }
 
 }  // namespace
@@ -61,15 +53,18 @@ json summary_of(const fs::path& path) {
 void add_show(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<ShowFlags>();
   CLI::App* command = program.add_subcommand("show", "Print the summary of a file that perfora wrote");
-  command->add_option("FILE", flags->file, "R.h5, P.h5, study.h5, or the folder of a study or ensemble")->required();
+  command->add_option("FILE", flags->file, "Any file that perfora wrote, or the folder of a study or ensemble")
+      ->required();
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] {
     flags->common.apply();
-    const json object = summary_of(flags->file);
+    const std::optional<json> object = summary_of(flags->file);
+    if (flags->common.json && !object)
+      throw io::InputError({flags->file, 0, ""}, "holds no result, so there is no JSON of it", "", "leave out --json");
     if (flags->common.json)
-      print_json(object);
+      print_json(*object);
     else
-      print_text(summary_text(object));
+      print_text(object ? summary_text(*object) : report::describe_file(flags->file));
     exit_code = exit_ok;
   });
 }

@@ -147,7 +147,8 @@ void check_walls(const geometry::PerforationLayout& layout, const io::Schema& sc
                     "bonds would span it",
                     millimetres(wall.thickness), pair_text(wall), millimetres(horizon_radius)),
         fmt::format("at least {:.4g} mm", millimetres(horizon_radius)),
-        "take smaller or fewer holes, smaller discs (packing.mean_diameter) or a smaller material.horizon");
+        "take smaller or fewer holes, smaller discs (packing.mean_diameter) or a smaller material.horizon; a random "
+        "layout keeps walls of layout.minimum_wall");
   if (wall.thickness < 2.0 * horizon_radius)
     warnings.push_back(
         fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than two horizons ({:.4g} mm): every disc in "

@@ -144,7 +144,7 @@ solver::Performance performance_from(const json& record) {
   performance.steps_per_second = number_from(record, "steps_per_second");
   performance.ns_per_bond_step = number_from(record, "ns_per_bond_step");
   performance.threads = record.at("threads").get<int>();
-  performance.simd = record.at("simd").get<std::string>();
+  performance.simd = record.at("simd").is_null() ? std::string() : record.at("simd").get<std::string>();
   performance.peak_memory = number_from(record, "peak_memory");
   return performance;
 }
@@ -183,7 +183,7 @@ json to_json(const solver::Performance& performance) {
           {"steps_per_second", rate(performance.steps_per_second)},
           {"ns_per_bond_step", rate(performance.ns_per_bond_step)},
           {"threads", performance.threads},
-          {"simd", performance.simd},
+          {"simd", performance.simd.empty() ? json(nullptr) : json(performance.simd)},
           {"peak_memory", rate(performance.peak_memory)}};
 }
 

@@ -95,14 +95,22 @@ json performance_json(const StudyRun& run) {
   double memory = 0.0;
   std::string simd;
   int threads = 1;
+  double steps = 0.0, bond_steps = 0.0, seconds = 0.0;  // of the simulations alone
   for (const auto& [key, evaluation] : run.answers()) {
     memory = std::max(memory, evaluation.performance.peak_memory);
     simd = evaluation.performance.simd.empty() ? simd : evaluation.performance.simd;
     threads = std::max(threads, evaluation.performance.threads);
+    const double time = evaluation.performance.seconds, per_bond = evaluation.performance.ns_per_bond_step;
+    if (!(time > 0.0) || !(per_bond > 0.0)) continue;
+    steps += static_cast<double>(evaluation.summary.steps);
+    bond_steps += time / per_bond;
+    seconds += time;
   }
   return {{"seconds", run.seconds()},
           {"simulated_seconds", run.simulated_seconds()},
           {"retries", run.retries()},
+          {"steps_per_second", seconds > 0.0 ? json(steps / seconds) : json(nullptr)},
+          {"ns_per_bond_step", bond_steps > 0.0 ? json(seconds / bond_steps) : json(nullptr)},
           {"threads", threads},
           {"simd", simd},
           {"peak_memory", number(memory)}};

@@ -60,6 +60,11 @@ void prepare_folder(const StudyRunOptions& options) {
   if (!options.resume && std::filesystem::exists(journal))
     throw io::InputError({options.folder.string(), 0, ""}, "this folder holds a study already", "",
                          "go on with it by --resume, start over with --force, or name another folder with -o");
+  if (!std::filesystem::exists(journal))
+    for (const char* name : own_files)
+      if (std::filesystem::exists(options.folder / name))
+        throw io::InputError({(options.folder / name).string(), 0, ""}, "a study would overwrite this file", "",
+                             "start over with --force, or name another folder with -o");
   std::filesystem::create_directories(options.folder, ignored);
   if (ignored)
     throw io::InputError({options.folder.string(), 0, ""},

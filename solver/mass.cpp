@@ -9,7 +9,7 @@
 namespace perfora::solver {
 namespace {
 
-constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, model.md "Motion"
+constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, docs/theory.md "Motion"
 
 struct Stiffness {
   std::vector<double> translation;  // K_i, N/m

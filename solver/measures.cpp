@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
-constexpr double smoothing_width = 0.005;     // model.md: the 0.5 %-smoothed stress
+constexpr double smoothing_width = 0.005;     // docs/theory.md: the 0.5 %-smoothed stress
 constexpr double rising_share = 0.9;          // of its running maximum
 
 /// Value of y at x by linear interpolation; x inside the range.

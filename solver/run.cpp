@@ -27,8 +27,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double peak_passed_share =
     0.8;  // a row below this share of the largest row so far ends the search for the first peak
-constexpr double least_peak_strain = 2e-4;      // rows before that are too close to zero stress to tell a fall
-constexpr double residual_from_strain = 0.002;  // the ledger is judged from here on (issue: after 0.2 % strain)
+constexpr double least_peak_strain = 2e-4;  // rows before that are too close to zero stress to tell a fall
+constexpr double residual_from_strain =
+    0.002;  // the ledger is judged from here on (before it the work is too small to divide by)
 constexpr double unstable_overlap = 1.0;  // overlap over <d> at which discs pass through each other: the run has failed
 constexpr std::int64_t steps_between_looks = 64;  // at the clock and the stop flag
 
@@ -155,18 +156,25 @@ class Run {
   }
 
  private:
+  /// What a resumed run must share with the run it goes on from: configuration, seeds and results version.
+  std::string identity() const {
+    return fmt::format("# results_version {}, seeds {}\n", request_.provenance.results_version,
+                       request_.provenance.seeds_json) +
+           request_.provenance.config_toml;
+  }
+
   bool writes() const { return !request_.run_file.empty(); }
 
   void start() {
     started_ = last_checkpoint_ = Clock::now();
     if (writes()) {
-      if (request_.resume && folder_.can_resume(request_.provenance.config_toml)) {
+      if (request_.resume && folder_.can_resume(identity())) {
         progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
         for (const double stress : progress_.history.stress_yy)
           largest_row_stress_ = std::max(largest_row_stress_, stress);
         io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
       } else {
-        folder_.start_afresh(request_.provenance.config_toml);
+        folder_.start_afresh(identity());
       }
     }
     first_step_ = simulation_->steps();
@@ -368,7 +376,7 @@ RunEstimate estimate_run(const RunRequest& request) {
                rows = static_cast<double>(setup.rows);
   e.memory_bytes = 30e6 + bonds * (2.0 * 192.0 * 1.1 + 50.0 + 88.0) + discs * (250.0 + 12.0 * 2.0 * 40.0);
   e.disk_bytes = bonds * 30.0 + discs * 200.0 + rows * 18.0 * 8.0;
-  constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core, docs/performance.md
+  constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core
   e.seconds = static_cast<double>(e.steps) * bonds * ns_per_bond_step * 1e-9 / std::max(1, request.threads);
   return e;
 }

@@ -225,7 +225,7 @@ void Simulation::record_breaks() {
     event.j = j;
     event.x = x + 0.5 * k.nx * k.length;
     event.y = y + 0.5 * k.ny * k.length;
-    // Mode: which term of phi is larger (model.md, "Measures").
+    // Mode: which term of phi is larger (docs/theory.md, "Measures").
     const double tension = k.delta_n * bond_law_.inverse_critical_normal / network_.strength[at(id)];
     const double shear = half_integer_power(
         std::fabs(k.delta_t) * bond_law_.inverse_critical_shear / network_.strength[at(id)], bond_law_.twice_alpha);

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, EstimateOfARealPacking,
                                            "noise.kind=perlin", "layout.family=none"));
 
 TEST(Estimate, PhysicalMassesNeedShorterSteps) {
-  // model.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times longer
+  // docs/theory.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times longer
   // in all.
   const DesignFile uniform(designs / "table1.toml");
   const DesignFile physical(designs / "table1.toml", {"dynamics.mass=physical"});

@@ -121,7 +121,7 @@ TEST(Noise, PerlinStatistics) {
   EXPECT_NEAR(sum / static_cast<double>(count), 0.0, 0.01);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), perlin_deviation(), 0.02 * perlin_deviation());
   EXPECT_NEAR(perlin_deviation() * perlin_amplitude_for(0.3) / 2.0, 0.3, 1e-12);
-  // model.md: the default Delta = 1.8 gives a spread of about 0.24.
+  // docs/theory.md: the default Delta = 1.8 gives a spread of about 0.24.
   EXPECT_NEAR(0.9 * perlin_deviation(), 0.24, 0.02);
 }
 
