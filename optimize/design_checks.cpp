@@ -121,14 +121,14 @@ void check_cell_against_discs(const Design& design, const io::Schema& schema, do
         "more than 2 x material.horizon x packing.mean_diameter", "take smaller discs or a larger cell");
   const double final_height = design.layout.height * (1.0 - design.solver.loading.until);
   const double largest_diameter = design.packing.file.empty() ? design.packing.maximum_diameter : mean_diameter;
-  if (final_height <= 2.0 * largest_diameter)
+  const double reach = std::max(largest_diameter, horizon_radius);  // fragments keep their bonds while the cell shrinks
+  if (final_height <= 2.0 * reach)
     throw io::InputError(
         schema.origin("loading.until"),
-        fmt::format("compressing to strain {:.4g} leaves a cell {:.4g} mm high, less than two of the largest "
-                    "discs",
+        fmt::format("compressing to strain {:.4g} leaves a cell {:.4g} mm high, not more than twice the "
+                    "horizon or the largest disc",
                     design.solver.loading.until, millimetres(final_height)),
-        fmt::format("below {:.4g}", 1.0 - 2.0 * largest_diameter / design.layout.height),
-        "stop earlier or take a higher cell");
+        fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.height), "stop earlier or take a higher cell");
 }
 
 std::string pair_text(const geometry::ThinnestWall& wall) {

@@ -114,14 +114,14 @@ PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot,
   const double uy = discs.vy[at(j)] - discs.vy[at(i)] + l.yy * ry;
   const double v_n = ux * nx + uy * ny;
   const double overlap = slot.touch - length;
+  const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
+  const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
   if (!(overlap > 0.0)) {
-    const ContactForce lost = contact_opening(*task.contact, v_n, step.dt, slot.history);
+    const ContactForce lost = contact_opening(*task.contact, v_n, v_t, step.dt, slot.history);
     task.sums.friction += 0.5 * lost.friction;
     task.sums.viscous += 0.5 * lost.viscous;
     return;
   }
-  const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
-  const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
   const double effective_mass = discs.mass[at(i)] * discs.mass[at(j)] / (discs.mass[at(i)] + discs.mass[at(j)]);
   const ContactForce f = contact_force(*task.contact, overlap, v_n, v_t, effective_mass, step.dt, slot.history);
   const double px = f.normal * nx + f.shear * ny, py = f.normal * ny - f.shear * nx;  // force on j

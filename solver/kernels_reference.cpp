@@ -109,10 +109,9 @@ class ReferenceBackend final : public ForceBackend {
     const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
     if (length > sum_radii) slot.touch = sum_radii;
     const double overlap = slot.touch - length;
+    const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
+    const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
     if (overlap > 0.0) {
-      const double lever_i = length * discs.radius[at(i)] / sum_radii,
-                   lever_j = length * discs.radius[at(j)] / sum_radii;
-      const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
       const double effective_mass = discs.mass[at(i)] * discs.mass[at(j)] / (discs.mass[at(i)] + discs.mass[at(j)]);
       const ContactForce f = contact_force(contact_, overlap, v_n, v_t, effective_mass, step.dt, slot.history);
       // On j: f_n n - k_t xi t, with t = perp(n) = (-ny, nx).
@@ -123,7 +122,7 @@ class ReferenceBackend final : public ForceBackend {
       sums.viscous += f.viscous;
       sums.largest_overlap = std::max(sums.largest_overlap, overlap);
     } else if (slot.history.shear != 0.0 || slot.history.viscous_force != 0.0) {
-      const ContactForce lost = contact_opening(contact_, v_n, step.dt, slot.history);
+      const ContactForce lost = contact_opening(contact_, v_n, v_t, step.dt, slot.history);
       sums.friction += lost.friction;
       sums.viscous += lost.viscous;
     }

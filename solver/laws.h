@@ -204,11 +204,11 @@ inline ContactForce contact_force(const ContactLaw& law, double overlap, double 
   return force;
 }
 
-/// What is lost when a contact opens: the rest of the tangential spring (friction) and the last half of the viscous
-/// work.
-inline ContactForce contact_opening(const ContactLaw& law, double v_n, double dt, ContactHistory& history) {
+/// What is lost when a contact opens: the rest of the tangential spring with the last half step of its work (friction),
+/// and the last half step of the viscous work.
+inline ContactForce contact_opening(const ContactLaw& law, double v_n, double v_t, double dt, ContactHistory& history) {
   ContactForce lost;
-  lost.friction = 0.5 * law.tangential_stiffness * history.shear * history.shear;
+  lost.friction = 0.5 * law.tangential_stiffness * history.shear * (history.shear + v_t * dt);
   lost.viscous = -0.5 * history.viscous_force * v_n * dt;
   history = {};
   return lost;

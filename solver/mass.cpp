@@ -113,6 +113,17 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
   return 2.0 / std::sqrt(omega_squared * (1.0 + cundall_damping));
 }
 
+double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double m : masses.mass) {
+    const double k = contacts_to_come * material.normal_stiffness * (1.0 + cundall_damping);
+    const double c = contacts_to_come * 2.0 * material.viscous_rate * std::sqrt(0.5 * material.normal_stiffness * m) *
+                     (1.0 + cundall_damping);
+    least = std::min(least, (std::sqrt(c * c + 4.0 * k * m) - c) / k);
+  }
+  return least;
+}
+
 double threshold_factor(const MaterialOptions& material, double mean_diameter) {
   const double ratio = mean_diameter / material.reference_mean_diameter;
   switch (material.threshold_scaling) {

@@ -18,9 +18,9 @@ struct MassProperties {
 };
 
 /// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over
-/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/theory.md, "Motion"). `physical`: rho pi R^2 and m R^2/2.
-/// `uniform_step`: m_i ~ K_i with the total kept and I_i = m_i KR_i/K_i, so that every disc has the same critical step;
-/// statics are exact.
+/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/theory.md, "Motion"). `physical`: rho pi R^2 and m
+/// R^2/2. `uniform_step`: m_i ~ K_i with the total kept and I_i = m_i KR_i/K_i, so that every disc has the same
+/// critical step; statics are exact.
 MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
                            const MaterialOptions& material, const DynamicsOptions& dynamics);
 
@@ -28,6 +28,11 @@ MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& 
 /// iteration on M^-1 K (linearised, undeformed).
 double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses,
                                         const MaterialOptions& material, double cundall_damping, int iterations = 60);
+
+/// Longest stable step of a disc held by contacts alone: the root of K dt^2 + 2 C dt = 4 m of a spring and a dashpot
+/// whose force lags by half a step, with K = 6 k_n and C = 12 beta sqrt(k_n m/2) for six contacts with equal
+/// neighbours, both times (1 + c) for Cundall damping; the least over all discs.
+double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping);
 
 /// What the automatic loading rate rests on.
 struct LoadingEstimate {

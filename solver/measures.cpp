@@ -74,11 +74,10 @@ std::vector<double> smoothed(const std::vector<double>& x, const std::vector<dou
   return out;
 }
 
-/// Strain where the stress last crosses `level` upwards; NaN when it does not end above it.
+/// Strain where the stress last crosses `level` upwards; NaN when it never does.
 double last_upward_crossing(const std::vector<double>& strain, const std::vector<double>& stress, double level) {
-  if (stress.empty() || stress.back() < level) return nan;
-  for (std::size_t k = stress.size() - 1; k > 0; --k)
-    if (stress[k - 1] < level)
+  for (std::size_t k = stress.size(); k-- > 1;)
+    if (stress[k - 1] < level && stress[k] >= level)
       return strain[k - 1] + (level - stress[k - 1]) / (stress[k] - stress[k - 1]) * (strain[k] - strain[k - 1]);
   return nan;
 }
@@ -132,11 +131,14 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   const auto& stress = history.stress_yy;
   summary.plateau_start = plateau_start;
   summary.plateau_end = plateau_end;
-  for (double* value :
-       {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
-        &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
+  for (double* value : {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation,
+                        &summary.densification_strain, &summary.cundall_share, &summary.efficiency_strain,
+                        &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
     *value = nan;
   if (strain.size() < 2) return;
+  const double work_end = std::min(plateau_end, strain.back());
+  const double work = interpolate(strain, history.external_work, work_end);
+  summary.cundall_share = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
 
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     double smallest = nan;

@@ -58,7 +58,8 @@ struct Summary {
   double minimum_stress_in_window = 0.0, undulation = 0.0;
   double densification_strain = 0.0, efficiency_strain = 0.0, only_rising_strain = 0.0;
   double energy_absorbed = 0.0;  ///< external work per reference area up to the end of the plateau window, J/m3
-  double cundall_share = 0.0;    ///< of the external work at the end
+  double cundall_share =
+      0.0;  ///< of the external work up to the end of the plateau window, or of the run when it ends before
   std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
   std::int64_t fragments = 0;
   double largest_fragment_fraction = 0.0;  ///< of the solid area
@@ -68,7 +69,7 @@ struct Summary {
   // Validity.
   double transits_before_peak = 0.0;
   double kinetic_ratio_at_peak = 0.0;  ///< kinetic over elastic energy
-  double step_margin = 0.0;            ///< critical step by power iteration over the step used
+  double step_margin = 0.0;            ///< critical step over the step used
   double noise_mean = 1.0, noise_std = 0.0, noise_min = 1.0, noise_max = 1.0;
 };
 

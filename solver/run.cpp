@@ -27,6 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double peak_passed_share =
     0.8;  // a row below this share of the largest row so far ends the search for the first peak
+constexpr double latest_peak =
+    10.0;  // times the estimated peak strain: a later fall is a serration of the rubble, not the first peak
 constexpr double least_peak_strain = 2e-4;  // rows before that are too close to zero stress to tell a fall
 constexpr double residual_from_strain =
     0.002;  // the ledger is judged from here on (before it the work is too small to divide by)
@@ -64,6 +66,9 @@ Setup prepare(const RunRequest& request) {
   Setup s;
   s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed,
                                 request.mean_diameter);
+  if (s.network.size() == 0)
+    throw io::InputError({"", 0, "material.horizon"}, "no two discs are near enough to be bonded", "",
+                         "raise the horizon or the solid fraction");
   s.masses = make_masses(*request.clipped, s.network, options.material, options.dynamics);
   s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
                                porosity_of(*request.layout), request.mean_diameter);
@@ -71,11 +76,13 @@ Setup prepare(const RunRequest& request) {
   // The step is shortened so that a whole number of steps makes a row: rows then sit at exact strains.
   const double interval = options.output.history_interval;
   // The bound per disc is pessimistic by a factor of 1.4 for uniform_step; power iteration on the intact network gives
-  // the step that counts (rubble has softer modes: fewer springs on the same masses).
+  // the step that counts, with step_factor as its margin. Rubble is held by contacts: their own limit, dashpots
+  // included, stands beside it.
   s.critical_step = std::max(
       s.masses.critical_step,
       critical_step_by_power_iteration(s.network, s.masses, options.material, options.dynamics.cundall_damping));
-  const double longest = options.dynamics.step_factor * s.critical_step;
+  const double longest = std::min(options.dynamics.step_factor * s.critical_step,
+                                  contact_critical_step(s.masses, options.material, options.dynamics.cundall_damping));
   s.steps_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / (s.rate * longest))));
   s.time_step = interval / (s.rate * static_cast<double>(s.steps_per_row));
   constexpr double rounding = 1e-9;
@@ -182,7 +189,9 @@ class Run {
     earlier_seconds_ = progress_.seconds;
     if (progress_.history.rows() == 0) {
       add_row();
-      if (wants_frames()) take_frame();
+      const auto& strains = request_.options.output.frame_strains;
+      const bool wants_start = strains.empty() || std::find(strains.begin(), strains.end(), 0.0) != strains.end();
+      if (wants_frames() && wants_start) take_frame();
     }
   }
 
@@ -212,6 +221,12 @@ class Run {
     const double now = seconds_since(started_);
     const bool out_of_time = request_.wall_time_limit > 0.0 && now > request_.wall_time_limit;
     const bool stopping = stop_requested() || out_of_time;
+    if (!std::isfinite(simulation_->stress().yy)) {  // never store what cannot be gone on with
+      response_.summary.status = RunStatus::failed;
+      response_.summary.reason =
+          fmt::format("unstable step: stress is not a number at strain {:.4f}", simulation_->strain());
+      return true;
+    }
     if (writes() && (stopping || seconds_since(last_checkpoint_) > request_.options.output.checkpoint_interval)) {
       progress_.seconds = earlier_seconds_ + now;
       write_checkpoint(folder_.checkpoint_file(), *simulation_, progress_);
@@ -253,8 +268,12 @@ class Run {
     h.cundall.push_back(energy.cundall);
     simulation_->reset_row();
     if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
-      largest_row_stress_ = std::max(largest_row_stress_, stress.yy);
-      if (strain > least_peak_strain && stress.yy < peak_passed_share * largest_row_stress_) {
+      if (stress.yy > largest_row_stress_) {
+        largest_row_stress_ = stress.yy;
+        largest_row_strain_ = strain;
+      }
+      if (strain > least_peak_strain && stress.yy < peak_passed_share * largest_row_stress_ &&
+          largest_row_strain_ < latest_peak * setup_.loading.peak_strain) {
         simulation_->freeze_peak();
         peak_just_passed_ = true;
       } else {
@@ -300,12 +319,12 @@ class Run {
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
     const double area = request_.layout->width * request_.layout->height;
     measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
-    s.cundall_share = h.external_work.back() > 0.0 ? h.cundall.back() / h.external_work.back() : nan;
     s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
     s.broken_in_tension = std::count_if(simulation_->events().begin(), simulation_->events().end(),
                                         [](const BreakEvent& e) { return e.mode == BreakMode::tension; });
     s.broken_in_shear = s.broken_bonds - s.broken_in_tension;
-    if (fragments_.label.empty()) fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
+    if (fragments_.label.empty() || fragments_at_breaks_ != s.broken_bonds)
+      fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
     s.fragments = fragments_.count;
     s.largest_fragment_fraction = fragments_.largest_fraction;
     s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
@@ -343,7 +362,7 @@ class Run {
   Response response_;
   Fragments fragments_;
   std::int64_t fragments_at_breaks_ = -1;
-  double largest_row_stress_ = 0.0;
+  double largest_row_stress_ = 0.0, largest_row_strain_ = 0.0;
   bool peak_just_passed_ = false;
   Clock::time_point started_, last_checkpoint_;
   std::int64_t first_step_ = 0;

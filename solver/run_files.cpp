@@ -149,6 +149,7 @@ RunFolder::RunFolder(const std::filesystem::path& run_file) : folder_(run_file) 
 }
 
 void RunFolder::start_afresh(const std::string& config) {
+  std::filesystem::remove(checkpoint_file());  // first: a folder without it is never taken for a run to go on with
   std::filesystem::remove_all(folder_);
   std::filesystem::create_directories(folder_ / "frames");
   io::write_file(folder_ / "config.toml", config);
@@ -261,6 +262,9 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   if (s.discs.sx.size() != simulation.discs().sx.size() || s.damage.size() != simulation.network().damage.size())
     throw io::InputError({path.string(), 0, ""}, "the checkpoint holds another number of discs or bonds",
                          "a checkpoint goes with the design it was written for", "start the run anew with --force");
+  if (s.discs.radius != simulation.discs().radius || s.discs.mass != simulation.discs().mass)
+    throw io::InputError({path.string(), 0, ""}, "the checkpoint holds other discs",
+                         "a checkpoint goes with the packing it was written for", "start the run anew with --force");
   s.discs.record.resize(s.discs.sx.size());
   s.discs.record_before.resize(s.discs.sx.size());
   NearPairs::Snapshot& near = s.near_pairs;

@@ -225,12 +225,14 @@ void Simulation::record_breaks() {
     event.j = j;
     event.x = x + 0.5 * k.nx * k.length;
     event.y = y + 0.5 * k.ny * k.length;
-    // Mode: which term of phi is larger (docs/theory.md, "Measures").
-    const double tension = k.delta_n * bond_law_.inverse_critical_normal / network_.strength[at(id)];
-    const double shear = half_integer_power(
-        std::fabs(k.delta_t) * bond_law_.inverse_critical_shear / network_.strength[at(id)], bond_law_.twice_alpha);
+    // Mode: which term of phi(zeta_max), the surface the bond broke on, is larger (docs/theory.md, "Bonds").
+    const double scale = 1.0 / (network_.strength[at(id)] * bond_law_.rupture_delay);
+    const double tension = k.delta_n * bond_law_.inverse_critical_normal * scale;
+    const double shear =
+        half_integer_power(std::fabs(k.delta_t) * bond_law_.inverse_critical_shear * scale, bond_law_.twice_alpha);
     event.mode = tension > shear ? BreakMode::tension : BreakMode::shear;
-    const BondPoint point{k.delta_n, k.delta_t, 0.0};
+    const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[at(id)]);
+    const BondPoint point{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     event.energy = damageable_energy(bond_law_, point, point);
     events_.push_back(event);
   }

@@ -35,7 +35,8 @@ struct SimulationInput {
   int threads = 1;
 };
 
-/// State and step. One call of step() moves from t to t + dt; nothing in it allocates, throws or writes files. The same
+/// State and step. One call of step() moves from t to t + dt; it writes no files and throws nothing, and allocates
+/// only in the rare steps that rebuild the neighbour list or compact the bonds. The same
 /// bits for any number of threads.
 class Simulation {
  public:

@@ -101,8 +101,8 @@ TEST(ReferenceKernel, UnloadingReloading) {
   EXPECT_NEAR(stretch(1.2), 0.0, tolerance);
 }
 
-// Rigid rotation of a pair by 100 rad, and far beyond 2 pi in the wrap, makes no force (docs/theory.md: everything is even
-// under e -> -e).
+// Rigid rotation of a pair by 100 rad, and far beyond 2 pi in the wrap, makes no force (docs/theory.md: everything is
+// even under e -> -e).
 TEST(ReferenceKernel, RigidRotationMakesNoForce) {
   for (const double theta : {0.1, 1.0, std::numbers::pi, 2.0 * std::numbers::pi, 10.0, 100.0, -100.0}) {
     KernelCase c = two_discs(l0);
@@ -222,6 +222,7 @@ std::vector<Option> options() {
 }
 
 TEST(Backends, OpenmpAgreesWithTheReferenceBondByBond) {
+  double friction = 0.0;
   for (const Option& option : options())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       KernelCase a = test::random_case(seed, option.share, option.law, option.lean);
@@ -257,11 +258,14 @@ TEST(Backends, OpenmpAgreesWithTheReferenceBondByBond) {
         EXPECT_NEAR(s.friction, t.friction, 1e-9 * std::fabs(s.friction) + 1e-15);
         EXPECT_NEAR(s.viscous, t.viscous, 1e-9 * std::fabs(s.viscous) + 1e-15);
         EXPECT_NEAR(s.largest_overlap, t.largest_overlap, 1e-16);
+        EXPECT_GT(s.largest_overlap, 0.0);
+        friction += s.friction;
         if (option.share > 1.0 && repeat == 0) {
           EXPECT_FALSE(a.broken.empty()) << option.name;
         }
       }
     }
+  EXPECT_GT(friction, 0.0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Bond and contact laws against closed forms (paper, Fig. 3; docs/theory.md, "Bonds"). Numbers expected are worked out by
-// hand from the formulas in the comments.
+// Bond and contact laws against closed forms (paper, Fig. 3; docs/theory.md, "Bonds"). Numbers expected are worked out
+// by hand from the formulas in the comments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -224,9 +224,9 @@ TEST(ContactLaw, LimitsAndDissipation) {
   EXPECT_DOUBLE_EQ(f.shear, 8.0);
   EXPECT_NEAR(history.shear, 1e-6, 1e-18);
   EXPECT_NEAR(f.friction, 4.0 * 9e-6, 1e-15);
-  // Opening loses what the spring holds: k_t xi^2/2 = 4e-6 J.
-  const ContactForce lost = contact_opening(law, 0.0, dt, history);
-  EXPECT_NEAR(lost.friction, 4e-6, 1e-18);
+  // Opening loses what the spring holds, k_t xi^2/2 = 4e-6 J, and half a step of its force: k_t xi v_t dt/2 = 4e-6 J.
+  const ContactForce lost = contact_opening(law, 0.0, 1.0, dt, history);
+  EXPECT_NEAR(lost.friction, 8e-6, 1e-18);
   EXPECT_EQ(history.shear, 0.0);
 }
 
