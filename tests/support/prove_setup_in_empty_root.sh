@@ -52,9 +52,9 @@ git -C "$repository" archive HEAD | tar -x -C "$root/perfora"
 for command in "${commands[@]}"; do
   echo "prove_setup: $command"
   start=$(date +%s)
-  # A mount namespace of its own: /proc goes away with it, however the command ends.
+  # A mount namespace of its own: /proc and the terminals go away with it, however the command ends.
   unshare --mount chroot "$root" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-    bash -c "mount -t proc proc /proc && cd /perfora && $command" < /dev/null || {
+    bash -c "mount -t proc proc /proc && mkdir -p /dev/pts && mount -t devpts -o newinstance,ptmxmode=666 devpts /dev/pts && cd /perfora && $command" < /dev/null || {
       echo "prove_setup: FAILED: $command (exit code $?)" >&2
       exit 1
     }
