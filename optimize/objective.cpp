@@ -35,7 +35,7 @@ double weighted(double weight, double value) {
 
 void describe(io::Schema& schema, TargetKeys& keys) {
   auto section = schema.section("target", "What the search is after, and what its score adds up.");
-  section.real("plateau_stress", keys.plateau_stress, io::Dimension::stress, io::Range::positive(),
+  section.real("plateau_stress", keys.plateau_stress, io::Dimension::stress, io::Range::non_negative(),
                "Wanted mean stress over the window");
   section.real_list("window", keys.window, io::Dimension::ratio, io::Range::between(0.0, 1.0),
                     "Start and end of the window in engineering strain");

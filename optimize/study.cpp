@@ -143,7 +143,7 @@ struct Reader {
       throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
                            "add maxeval = 24 under [study]; most algorithms never stop by themselves");
     if (!(study.target.plateau_stress > 0.0))
-      throw io::InputError(origin("target.plateau_stress"), "no target is given", "a stress > 0",
+      throw io::InputError(origin("target.plateau_stress"), "the target is missing or zero", "a stress above 0",
                            "add plateau_stress = \"0.2 MPa\" under [target]");
     set_window(start);
     check_algorithms();

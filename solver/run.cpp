@@ -1,4 +1,5 @@
-// What is here: one compression: set-up, rows, frames, checkpoints, stopping, summary.
+// What is here: one compression: rows, frames, checkpoints, stopping, summary. What is not: step and rate
+// (run_setup.h).
 #include "solver/run.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "solver/fragments.h"
 #include "solver/measures.h"
 #include "solver/run_files.h"
+#include "solver/run_setup.h"
 #include "solver/simulation.h"
 
 namespace perfora::solver {
@@ -39,55 +41,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double porosity_of(const geometry::PerforationLayout& layout) {
-  return 1.0 - layout.solid_area_fraction();
-}
-
 double peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-/// Everything that follows from the request before the first step.
-struct Setup {
-  BondNetwork network;
-  MassProperties masses;
-  LoadingEstimate loading;
-  double rate = 0.0;
-  double critical_step = 0.0;
-  double time_step = 0.0;
-  std::int64_t steps_per_row = 0;
-  std::int64_t rows = 0;
-};
-
-Setup prepare(const RunRequest& request) {
-  const SolverOptions& options = request.options;
-  Setup s;
-  s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed,
-                                request.mean_diameter);
-  if (s.network.size() == 0)
-    throw io::InputError({"", 0, "material.horizon"}, "no two discs are near enough to be bonded", "",
-                         "raise the horizon or the solid fraction");
-  s.masses = make_masses(*request.clipped, s.network, options.material, options.dynamics);
-  s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
-                               porosity_of(*request.layout), request.mean_diameter);
-  s.rate = options.loading.rate > 0.0 ? options.loading.rate : s.loading.rate;
-  // The step is shortened so that a whole number of steps makes a row: rows then sit at exact strains.
-  const double interval = options.output.history_interval;
-  // The bound per disc is pessimistic by a factor of 1.4 for uniform_step; power iteration on the intact network gives
-  // the step that counts, with step_factor as its margin. Rubble is held by contacts: their own limit, dashpots
-  // included, stands beside it.
-  s.critical_step = std::max(
-      s.masses.critical_step,
-      critical_step_by_power_iteration(s.network, s.masses, options.material, options.dynamics.cundall_damping));
-  const double longest = std::min(options.dynamics.step_factor * s.critical_step,
-                                  contact_critical_step(s.masses, options.material, options.dynamics.cundall_damping));
-  s.steps_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / (s.rate * longest))));
-  s.time_step = interval / (s.rate * static_cast<double>(s.steps_per_row));
-  constexpr double rounding = 1e-9;
-  s.rows = static_cast<std::int64_t>(std::ceil(options.loading.until / interval - rounding));
-  return s;
 }
 
 Cell oedometric_cell(const geometry::PerforationLayout& layout, double rate) {
@@ -127,7 +84,7 @@ class Run {
  public:
   explicit Run(const RunRequest& request)
       : request_(request),
-        setup_(prepare(request)),
+        setup_(set_up_run(request)),
         folder_(request.run_file),
         original_bonds_(bonds_per_disc(setup_.network, request.clipped->x.size())) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
@@ -354,7 +311,7 @@ class Run {
   }
 
   const RunRequest& request_;
-  Setup setup_;
+  RunSetup setup_;
   RunFolder folder_;
   std::vector<std::int32_t> original_bonds_;
   std::optional<Simulation> simulation_;
@@ -381,23 +338,6 @@ bool stop_requested() {
 
 Response run_compression(const RunRequest& request) {
   return Run(request).execute();
-}
-
-RunEstimate estimate_run(const RunRequest& request) {
-  const Setup setup = prepare(request);
-  RunEstimate e;
-  e.discs = request.clipped->size();
-  e.bonds = setup.network.size();
-  e.steps = setup.rows * setup.steps_per_row;
-  e.time_step = setup.time_step;
-  e.rate = setup.rate;
-  const double discs = static_cast<double>(e.discs), bonds = static_cast<double>(e.bonds),
-               rows = static_cast<double>(setup.rows);
-  e.memory_bytes = 30e6 + bonds * (2.0 * 192.0 * 1.1 + 50.0 + 88.0) + discs * (250.0 + 12.0 * 2.0 * 40.0);
-  e.disk_bytes = bonds * 30.0 + discs * 200.0 + rows * 18.0 * 8.0;
-  constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core
-  e.seconds = static_cast<double>(e.steps) * bonds * ns_per_bond_step * 1e-9 / std::max(1, request.threads);
-  return e;
 }
 
 }  // namespace perfora::solver

@@ -1,0 +1,29 @@
+// What is here: what follows from a request before the first step: bonds, masses, rate, step, rows. What is not: the
+// run.
+#pragma once
+
+#include <cstdint>
+
+#include "solver/bond_network.h"
+#include "solver/mass.h"
+#include "solver/run.h"
+
+namespace perfora::solver {
+
+/// Everything that follows from the request before the first step.
+struct RunSetup {
+  BondNetwork network;
+  MassProperties masses;
+  LoadingEstimate loading;
+  double rate = 0.0;
+  double critical_step = 0.0;
+  double time_step = 0.0;
+  std::int64_t steps_per_row = 0;
+  std::int64_t rows = 0;
+};
+
+/// Bonds the request's packing and chooses rate and step (docs/theory.md, "Motion"). Throws io::InputError when nothing
+/// is bonded.
+RunSetup set_up_run(const RunRequest& request);
+
+}  // namespace perfora::solver
