@@ -8,7 +8,7 @@
 
 namespace perfora::optimize {
 
-/// Expected numbers of one evaluation. Discs and bonds are good to a few per cent, steps to some ten per cent, seconds
+/// Expected numbers of one evaluation. Discs and bonds are good to a few per cent, steps to some twenty per cent, seconds
 /// to a factor of two.
 struct DesignEstimate {
   std::int64_t perforations = 0;

@@ -85,7 +85,9 @@ TEST_P(EstimateOfARealPacking, Agrees) {
   const auto within = [](double found, double wanted, double share) { EXPECT_NEAR(found, wanted, share * wanted); };
   within(static_cast<double>(estimate.discs), static_cast<double>(counted.discs), 0.03);
   within(static_cast<double>(estimate.bonds), static_cast<double>(counted.bonds), 0.04);
-  within(estimate.time_step, counted.time_step, 0.1);
+  // The step is bounded by the lightest disc in contacts, and with uniform_step that is one at the edge of a hole, with
+  // half the bonds: the patch has none.
+  within(estimate.time_step, counted.time_step, 0.15);
   within(estimate.rate, counted.rate, 0.1);
   within(static_cast<double>(estimate.steps), static_cast<double>(counted.steps), 0.2);
 }
@@ -95,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, EstimateOfARealPacking,
                                            "noise.kind=perlin", "layout.family=none"));
 
 TEST(Estimate, PhysicalMassesNeedShorterSteps) {
-  // docs/theory.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times longer
-  // in all.
+  // docs/theory.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times
+  // longer in all.
   const DesignFile uniform(designs / "table1.toml");
   const DesignFile physical(designs / "table1.toml", {"dynamics.mass=physical"});
   EXPECT_LT(estimate_design(physical, 1).time_step, 0.6 * estimate_design(uniform, 1).time_step);

@@ -228,7 +228,7 @@ TEST_F(StudyFile, RefusesWhatIsWrongByKeyAndRemedy) {
       {study_text("maxeval = 12", "family = [\"square\", \"hexagonal\"]"), {"family", "hexagonal"}},
       {study_text("maxeval = 12", "", "porosity = [0.5, 0.2]"), {"constraints.porosity"}},
       {study_text("maxeval = 12", "", "thinnest_wall = \"-1 mm\""), {"constraints.thinnest_wall"}},
-      {head + variables, {"target.plateau_stress", "no target"}},
+      {head + variables, {"target.plateau_stress", "missing or zero"}},
       {head + "[target]\nplateau_stress = 0\n" + variables, {"target.plateau_stress"}},
       {head + "[target]\nplateau_stress = \"2 mm\"\n" + variables, {"target.plateau_stress"}},
       {head + "[target]\nplateau_stress = 2e5\nwindow = [0.4, 0.2]\n" + variables, {"target.window"}},
