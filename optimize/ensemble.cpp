@@ -36,10 +36,6 @@ constexpr Result results[] = {
     {"fragments", [](const Evaluation& e) { return static_cast<double>(e.summary.fragments); }},
 };
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 /// Names an ensemble whatever the number of replicates.
 std::string ensemble_key(const DesignFile& design) {
   return make_request(design, 0).key();
@@ -199,9 +195,7 @@ json to_json(const Ensemble& ensemble) {
                           {"maximum", number(s.maximum)}};
   json runs = json::array();
   for (const Evaluation& evaluation : ensemble.replicates) runs.push_back(to_json(evaluation, false));
-  const char* status = ensemble.status == solver::RunStatus::completed ? "completed"
-                       : ensemble.status == solver::RunStatus::stopped ? "stopped"
-                                                                       : "failed";
+  const char* status = solver::status_name(ensemble.status);
   return {{"schema", "perfora.ensemble/1"},
           {"status", status},
           {"reason", ensemble.reason},

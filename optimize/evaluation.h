@@ -88,6 +88,9 @@ void require_packing_file(const DesignFile& design, const std::filesystem::path&
 std::optional<Evaluation> finished_evaluation(const DesignFile& design, const std::filesystem::path& run_file,
                                               int replicate);
 
+/// A JSON number, null where it was not reached (NaN or infinite).
+nlohmann::json number(double value);
+
 /// JSON forms. SI, engineering strain, null for what was not reached, never NaN.
 nlohmann::json to_json(const PackSummary& summary);
 nlohmann::json to_json(const solver::Summary& summary);

@@ -8,13 +8,13 @@
 
 namespace perfora::optimize {
 
-namespace {
-
 using nlohmann::json;
 
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
+
+namespace {
 
 double number_from(const json& record, const char* key) {
   const auto it = record.find(key);
@@ -36,21 +36,9 @@ std::vector<double> numbers_from(const json& array) {
   return values;
 }
 
-const char* status_name(solver::RunStatus status) {
-  switch (status) {
-    case solver::RunStatus::completed:
-      return "completed";
-    case solver::RunStatus::stopped:
-      return "stopped";
-    case solver::RunStatus::failed:
-      return "failed";
-  }
-  return "failed";
-}
-
 solver::RunStatus status_from(const std::string& name) {
   for (const auto status : {solver::RunStatus::completed, solver::RunStatus::stopped, solver::RunStatus::failed})
-    if (name == status_name(status)) return status;
+    if (name == solver::status_name(status)) return status;
   throw std::invalid_argument("unknown status \"" + name + "\"");
 }
 
@@ -151,7 +139,7 @@ solver::Performance performance_from(const json& record) {
 
 json head(const char* schema, solver::RunStatus status, const std::string& reason, const Seeds::Effective& seeds) {
   return {{"schema", schema},
-          {"status", status_name(status)},
+          {"status", solver::status_name(status)},
           {"reason", reason},
           {"seeds", to_json(seeds)},
           {"results_version", results_version}};

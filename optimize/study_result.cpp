@@ -12,21 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-const char* status_name(solver::RunStatus status) {
-  switch (status) {
-    case solver::RunStatus::completed:
-      return "completed";
-    case solver::RunStatus::stopped:
-      return "stopped";
-    default:
-      return "failed";
-  }
-}
-
 json score_json(const Score& score) {
   if (score.replicates == 0) return nullptr;
   const bool any = score.failed < score.replicates;
@@ -158,7 +143,7 @@ json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
   json record = {{"schema", "perfora.optimize/1"},
-                 {"status", status_name(run.status())},
+                 {"status", solver::status_name(run.status())},
                  {"reason", run.reason()},
                  {"seeds", to_json(study.start->design().seeds.effective(0))},
                  {"results_version", results_version},

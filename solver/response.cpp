@@ -1,7 +1,19 @@
-// What is here: the columns of a history.
+// What is here: the columns of a history, the names of states. What is not: how either is computed.
 #include "solver/response.h"
 
 namespace perfora::solver {
+
+const char* status_name(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::stopped:
+      return "stopped";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "failed";
+}
 
 const std::vector<History::Column>& History::columns() {
   static const std::vector<Column> list = {

@@ -9,6 +9,8 @@
 namespace perfora::solver {
 
 enum class RunStatus { completed, stopped, failed };
+/// As files and JSON name it: "completed", "stopped", "failed".
+const char* status_name(RunStatus status);
 
 /// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per
 /// metre of depth. Stresses are means since the last row; all else is at the row.

@@ -57,11 +57,10 @@ struct Response {
 /// io::InputError.
 Response run_compression(const RunRequest& request);
 
-/// What a run would take, without running: for `check`.
+/// Counts, step and rate of a run, without running; what they cost is estimated in optimize/estimate.h.
 struct RunEstimate {
   std::int64_t discs = 0, bonds = 0, steps = 0;
   double time_step = 0.0, rate = 0.0;
-  double memory_bytes = 0.0, disk_bytes = 0.0, seconds = 0.0;
 };
 RunEstimate estimate_run(const RunRequest& request);
 

@@ -298,10 +298,7 @@ void write_run_file(const RunRequest& request, const Simulation& simulation, con
   const BondNetwork& network = simulation.network();
   io::Hdf5Writer file(request.run_file);
   file.attribute("/", "format", std::string("perfora.run/1"));
-  const char* status = response.summary.status == RunStatus::completed ? "completed"
-                       : response.summary.status == RunStatus::stopped ? "stopped"
-                                                                       : "failed";
-  file.attribute("/", "status", std::string(status));
+  file.attribute("/", "status", std::string(status_name(response.summary.status)));
   file.attribute("/", "reason", response.summary.reason);
   file.attribute("/", "program_version", request.provenance.program_version);
   file.attribute("/", "git_revision", request.provenance.git_revision);

@@ -45,12 +45,6 @@ RunEstimate estimate_run(const RunRequest& request) {
   e.steps = setup.rows * setup.steps_per_row;
   e.time_step = setup.time_step;
   e.rate = setup.rate;
-  const double discs = static_cast<double>(e.discs), bonds = static_cast<double>(e.bonds),
-               rows = static_cast<double>(setup.rows);
-  e.memory_bytes = 30e6 + bonds * (2.0 * 192.0 * 1.1 + 50.0 + 88.0) + discs * (250.0 + 12.0 * 2.0 * 40.0);
-  e.disk_bytes = bonds * 30.0 + discs * 200.0 + rows * 18.0 * 8.0;
-  constexpr double ns_per_bond_step = 15.0;  // one thread of a common server core
-  e.seconds = static_cast<double>(e.steps) * bonds * ns_per_bond_step * 1e-9 / std::max(1, request.threads);
   return e;
 }
 

@@ -1,5 +1,5 @@
-// A run killed by SIGKILL at random moments and resumed each time ends with the same bits as the run that was never
-// stopped; so do one and two threads. Expected values: the straight run of the same program.
+// What is here: A run killed by SIGKILL at random moments and resumed each time ends with the same bits as the run that
+// was never stopped; so do one and two threads. Expected values: the straight run of the same program.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>

@@ -1,5 +1,5 @@
-// Whole runs on small clusters: conservation, ledger, determinism, restart. Expected values are conservation laws and
-// bit equality.
+// What is here: Whole runs on small clusters: conservation, ledger, determinism, restart. Expected values are
+// conservation laws and bit equality.
 #include <gtest/gtest.h>
 
 #include <algorithm>

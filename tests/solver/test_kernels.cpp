@@ -1,4 +1,5 @@
-// Force backends: the reference against closed forms on one bond, the others against the reference on one fixture.
+// What is here: Force backends: the reference against closed forms on one bond, the others against the reference on one
+// fixture.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Bond and contact laws against closed forms (paper, Fig. 3; docs/theory.md, "Bonds"). Numbers expected are worked out
-// by hand from the formulas in the comments.
+// What is here: Bond and contact laws against closed forms (paper, Fig. 3; docs/theory.md, "Bonds"). Numbers expected
+// are worked out by hand from the formulas in the comments.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Measures of a curve against curves whose integrals are known in closed form.
+// What is here: Measures of a curve against curves whose integrals are known in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>

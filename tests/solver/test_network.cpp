@@ -1,4 +1,4 @@
-// Bond candidates and near pairs against brute force; masses and critical step against closed forms.
+// What is here: Bond candidates and near pairs against brute force; masses and critical step against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
