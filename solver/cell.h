@@ -1,4 +1,5 @@
-// What is here: the periodic cell as an upper-triangular 2 x 2 matrix with a control per component. What is not: discs.
+// What is here: the periodic cell as an upper-triangular 2 x 2 matrix with a control per component: fixed, at a rate, or
+// following a wanted stress. What is not: discs.
 #pragma once
 
 #include <array>
@@ -17,20 +18,34 @@ struct VelocityGradient {
   double xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
-/// How one component of H moves: it stays, or changes at a constant rate dH/dt (m/s).
-enum class CellControl { fixed, rate };
+/// How one component of H moves: it stays, changes at a constant rate dH/dt (m/s), or follows a wanted stress.
+enum class CellControl { fixed, rate, stress };
 
-/// The cell and its motion. H is a function of the number of steps, not a running sum, so that it does not drift.
+/// The cell and its motion. Fixed and driven components of H are functions of time, not running sums, so that they do
+/// not drift. A component under stress control is a massless servo: its strain rate is servo_mobility times the excess
+/// of stress over the wanted one, so the excess decays at the rate servo_mobility x modulus and nothing can overshoot.
 struct Cell {
   CellMatrix start;
   std::array<CellControl, 3> control = {CellControl::fixed, CellControl::fixed, CellControl::fixed};  ///< xx, xy, yy
-  CellMatrix velocity;  ///< dH/dt where control = rate
+  CellMatrix velocity;          ///< dH/dt where control = rate
+  CellMatrix wanted_stress;     ///< Pa, compression positive, where control = stress
+  double servo_mobility = 0.0;  ///< 1/(Pa s)
 
-  CellMatrix at(double time) const {
-    const auto moved = [&](int k, double h, double v) {
-      return control[static_cast<std::size_t>(k)] == CellControl::rate ? h + v * time : h;
+  /// H at `time`, one step of `dt` after it was `before` with `stress` (Pa, compression positive; components as in H).
+  CellMatrix next(const CellMatrix& before, const CellMatrix& stress, double time, double dt) const {
+    const auto moved = [&](std::size_t k, double CellMatrix::*part, double length) {
+      switch (control[k]) {
+        case CellControl::rate:
+          return start.*part + velocity.*part * time;
+        case CellControl::stress:
+          return before.*part + length * servo_mobility * (stress.*part - wanted_stress.*part) * dt;
+        case CellControl::fixed:
+          break;
+      }
+      return start.*part;
     };
-    return {moved(0, start.xx, velocity.xx), moved(1, start.xy, velocity.xy), moved(2, start.yy, velocity.yy)};
+    return {moved(0, &CellMatrix::xx, before.xx), moved(1, &CellMatrix::xy, before.yy),
+            moved(2, &CellMatrix::yy, before.yy)};
   }
 };
 

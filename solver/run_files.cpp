@@ -15,7 +15,7 @@
 namespace perfora::solver {
 namespace {
 
-constexpr const char* checkpoint_format = "perfora.checkpoint/1";
+constexpr const char* checkpoint_format = "perfora.checkpoint/2";
 
 /// The configuration without the strain to run to: a stopped run may be resumed to another end.
 std::string without_until(const std::string& config) {
@@ -50,20 +50,24 @@ std::vector<double> pack(const Simulation::Progress& p) {
           p.peak_frozen,
           p.largest_overlap,
           p.largest_asymmetry,
-          p.bond_steps};
+          p.bond_steps,
+          p.cell.xx,
+          p.cell.xy,
+          p.cell.yy};
 }
 
 Simulation::Progress unpack(const std::vector<double>& v) {
   Simulation::Progress p;
   p.steps = static_cast<std::int64_t>(v.at(0));
-  const std::array<double*, 22> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
+  const std::array<double*, 25> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
                                           &p.ledger.damage,  &p.ledger.friction,  &p.ledger.viscous,
                                           &p.ledger.cundall, &p.virial.xx,        &p.virial.xy,
                                           &p.virial.yx,      &p.virial.yy,        &p.row_sum.xx,
                                           &p.row_sum.xy,     &p.row_sum.yx,       &p.row_sum.yy,
                                           &p.row_steps,      &p.peak_stress,      &p.peak_strain,
                                           &p.peak_frozen,    &p.largest_overlap,  &p.largest_asymmetry,
-                                          &p.bond_steps};
+                                          &p.bond_steps,     &p.cell.xx,          &p.cell.xy,
+                                          &p.cell.yy};
   for (std::size_t k = 0; k < fields.size(); ++k) *fields[k] = v.at(k + 1);
   return p;
 }

@@ -114,6 +114,7 @@ Simulation::Simulation(SimulationInput input)
   events_.reserve(static_cast<std::size_t>(network_.size()));
   chunk_sums_.resize((n + chunk_discs - 1) / chunk_discs);
   progress_.intact = static_cast<double>(network_.size());
+  progress_.cell = now_;
 }
 
 void Simulation::refresh_records() {
@@ -173,7 +174,9 @@ void Simulation::kick_and_drift() {
 void Simulation::step() {
   before_ = now_;
   ++progress_.steps;
-  now_ = cell_.at(time());
+  const Virial s = stress();
+  now_ = cell_.next(before_, {s.xx, 0.5 * (s.xy + s.yx), s.yy}, time(), time_step_);
+  progress_.cell = now_;
   kick_and_drift();
   if (near_pairs_.outdated(largest_displacement_, now_)) near_pairs_.rebuild(discs_, now_, network_);
   broken_.clear();
@@ -342,7 +345,7 @@ Simulation::Snapshot Simulation::snapshot() const {
 
 void Simulation::restore(Snapshot s) {
   progress_ = s.progress;
-  now_ = cell_.at(time());
+  now_ = progress_.cell;
   before_ = now_;  // only the next step's drift asks for it, and sets it itself
   discs_ = std::move(s.discs);
   network_.damage = std::move(s.damage);

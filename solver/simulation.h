@@ -91,6 +91,7 @@ class Simulation {
     double peak_stress = 0.0, peak_strain = 0.0, peak_frozen = 0.0;
     double largest_overlap = 0.0, largest_asymmetry = 0.0;
     double bond_steps = 0.0;
+    CellMatrix cell;  ///< H
   };
 
   /// For checkpoint.cpp: everything that changes during a run.
