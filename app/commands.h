@@ -10,6 +10,7 @@ namespace perfora::app {
 /// main().
 void add_pack(CLI::App& program, int& exit_code);
 void add_evaluate(CLI::App& program, int& exit_code);
+void add_test(CLI::App& program, int& exit_code);
 void add_optimize(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_show(CLI::App& program, int& exit_code);

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
       "75 stopped by a signal or a time limit with a checkpoint written (go on with --resume).");
   app::add_pack(program, exit_code);
   app::add_evaluate(program, exit_code);
+  app::add_test(program, exit_code);
   app::add_optimize(program, exit_code);
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);

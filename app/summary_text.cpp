@@ -76,6 +76,21 @@ constexpr Line optimize_lines[] = {
     {"stopped because", "stop_reason", Unit::number},
 };
 
+constexpr Line material_lines[] = {
+    {"Young's modulus E (2D)", "young_modulus", Unit::stress},
+    {"Poisson's ratio nu (2D)", "poisson_ratio", Unit::number},
+    {"E, plane-strain reading", "young_modulus_plane_strain", Unit::stress},
+    {"nu, plane-strain reading", "poisson_ratio_plane_strain", Unit::number},
+    {"shear modulus G", "shear_modulus", Unit::stress},
+    {"oedometric modulus C11", "oedometric_modulus", Unit::stress},
+    {"tensile strength", "tensile_strength", Unit::stress},
+    {"compressive strength", "compressive_strength", Unit::stress},
+    {"compressive / tensile strength", "strength_ratio", Unit::number},
+    {"shear strength", "shear_strength", Unit::stress},
+    {"oedometric strength", "oedometric_strength", Unit::stress},
+    {"fracture energy (J/m2)", "fracture_energy", Unit::number},
+};
+
 constexpr int label_width = 38;
 
 std::string value_text(double value, Unit unit) {
@@ -185,6 +200,22 @@ std::string statistics_text(const json& statistics) {
   return text;
 }
 
+/// One line a number, with its scatter over the samples.
+std::string material_text(const json& material) {
+  std::string text = "Material\n";
+  for (const Line& line : material_lines) {
+    const auto found = material.find(line.key);
+    if (found == material.end() || !found->at("mean").is_number()) continue;
+    std::string value = value_text(found->at("mean").get<double>(), line.unit);
+    if (found->at("standard_deviation").is_number())
+      value += fmt::format(" (deviation {}, {} samples)",
+                           value_text(found->at("standard_deviation").get<double>(), line.unit),
+                           found->at("count").get<int>());
+    text += line_text(line.label, value);
+  }
+  return text;
+}
+
 std::string optimize_text(const json& object) {
   std::string text = lines_text("Search", object, optimize_lines);
   if (const auto best = object.find("best"); best != object.end() && best->is_object()) {
@@ -245,6 +276,7 @@ std::string summary_text(const json& object) {
   std::string text = head_text(object);
   if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
   if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
+  if (schema == "perfora.test/1") return text + material_text(object.at("material")) + performance_text(object);
   text += lines_text("Packing", object, pack_lines);
   text += lines_text("Curve", object, curve_lines) + plateau_window_text(object);
   text += lines_text("Breakage at the end", object, damage_lines);

@@ -1,4 +1,4 @@
-// What is here: pictures of one run and of one packing, 1600 pixels wide (PNG; SVG and PDF by extension).
+// What is here: pictures of one run, of one packing and of material tests, 1600 pixels wide (PNG; SVG and PDF by extension).
 // What is not: studies (plot_study.h).
 #pragma once
 
@@ -40,5 +40,10 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
 void plot_packing(const std::filesystem::path& packing_file, const std::filesystem::path& out,
                   const PlotOptions& options = {});
 void draw_packing(const PackResult& pack, const std::filesystem::path& out, const PlotOptions& options = {});
+
+/// T.h5 -> picture: stress over strain of every test and replicate, the cracked sample of each test, the material's
+/// numbers.
+void plot_material_tests(const std::filesystem::path& test_file, const std::filesystem::path& out,
+                         const PlotOptions& options = {});
 
 }  // namespace perfora::report

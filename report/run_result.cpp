@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* run_format = "perfora.run/1";
 constexpr const char* pack_format = "perfora.pack/1";
+constexpr const char* test_format = "perfora.test/1";
 
 /// Order of docs/formats.md (HDF5 lists its members by the alphabet).
 constexpr std::array<const char*, 18> history_order = {
@@ -32,8 +33,9 @@ constexpr std::array<const char*, 18> history_order = {
 void require_format(const io::Hdf5Reader& file, const std::string& wanted, const std::string& what) {
   const std::string found = file.has_attribute("/", "format") ? file.attribute_text("/", "format") : "";
   if (found == wanted) return;
-  const std::string remedy =
-      wanted == run_format ? "give the R.h5 of `perfora evaluate`" : "give the P.h5 of `perfora pack`";
+  const std::string remedy = wanted == run_format    ? "give the R.h5 of `perfora evaluate`"
+                             : wanted == pack_format ? "give the P.h5 of `perfora pack`"
+                                                     : "give the T.h5 of `perfora test`";
   throw io::InputError({file.path().string(), 0, "format"},
                        found.empty() ? "the file has no attribute `format`, so it is not " + what
                                      : "the file is \"" + found + "\", not " + what,
@@ -113,8 +115,7 @@ std::vector<Column> read_history(const io::Hdf5Reader& file) {
   return columns;
 }
 
-FrameInfo read_frame_info(const io::Hdf5Reader& file, const std::string& name) {
-  const std::string group = "/frames/" + name;
+FrameInfo read_frame_info(const io::Hdf5Reader& file, const std::string& group, const std::string& name) {
   FrameInfo info;
   info.name = name;
   info.strain = file.attribute_double(group, "strain");
@@ -129,10 +130,31 @@ FrameInfo read_frame_info(const io::Hdf5Reader& file, const std::string& name) {
   return info;
 }
 
+Frame read_frame_group(const io::Hdf5Reader& file, const std::string& group, const FrameInfo& info,
+                       std::int32_t discs) {
+  Frame frame;
+  frame.info = info;
+  const auto n = static_cast<std::size_t>(discs);
+  frame.position = finite_doubles(file, group + "/discs/position");
+  frame.angle = finite_doubles(file, group + "/discs/angle");
+  frame.damage = finite_doubles(file, group + "/discs/damage");
+  frame.fragment = file.int32s(group + "/discs/fragment");
+  require_size(file, group + "/discs/position", frame.position, 2 * n);
+  require_size(file, group + "/discs/angle", frame.angle, n);
+  require_size(file, group + "/discs/damage", frame.damage, n);
+  require_size(file, group + "/discs/fragment", frame.fragment, n);
+  require_pairs(file, group + "/discs/fragment", frame.fragment, discs);
+  frame.bond_damage = finite_doubles(file, group + "/bonds/damage");
+  frame.bond_pairs = file.int32s(group + "/bonds/pairs");
+  require_size(file, group + "/bonds/pairs", frame.bond_pairs, 2 * frame.bond_damage.size());
+  require_pairs(file, group + "/bonds/pairs", frame.bond_pairs, discs);
+  return frame;
+}
+
 std::vector<FrameInfo> read_frame_list(const io::Hdf5Reader& file) {
   std::vector<FrameInfo> frames;
   if (!file.has("/frames")) return frames;
-  for (const std::string& name : file.children("/frames")) frames.push_back(read_frame_info(file, name));
+  for (const std::string& name : file.children("/frames")) frames.push_back(read_frame_info(file, "/frames/" + name, name));
   std::stable_sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.strain < b.strain; });
   return frames;
 }
@@ -225,24 +247,8 @@ RunResult read_run(const std::filesystem::path& path) {
 
 Frame read_frame(const RunResult& run, std::size_t index) {
   const io::Hdf5Reader file(run.path);
-  Frame frame;
-  frame.info = run.frames.at(index);
-  const std::string group = "/frames/" + frame.info.name;
-  const auto discs = static_cast<std::size_t>(run.clipped.size());
-  frame.position = finite_doubles(file, group + "/discs/position");
-  frame.angle = finite_doubles(file, group + "/discs/angle");
-  frame.damage = finite_doubles(file, group + "/discs/damage");
-  frame.fragment = file.int32s(group + "/discs/fragment");
-  require_size(file, group + "/discs/position", frame.position, 2 * discs);
-  require_size(file, group + "/discs/angle", frame.angle, discs);
-  require_size(file, group + "/discs/damage", frame.damage, discs);
-  require_size(file, group + "/discs/fragment", frame.fragment, discs);
-  require_pairs(file, group + "/discs/fragment", frame.fragment, run.clipped.size());
-  frame.bond_damage = finite_doubles(file, group + "/bonds/damage");
-  frame.bond_pairs = file.int32s(group + "/bonds/pairs");
-  require_size(file, group + "/bonds/pairs", frame.bond_pairs, 2 * frame.bond_damage.size());
-  require_pairs(file, group + "/bonds/pairs", frame.bond_pairs, run.clipped.size());
-  return frame;
+  const FrameInfo& info = run.frames.at(index);
+  return read_frame_group(file, "/frames/" + info.name, info, run.clipped.size());
 }
 
 PackResult read_pack(const std::filesystem::path& path) {
@@ -259,6 +265,35 @@ PackResult read_pack(const std::filesystem::path& path) {
   pack.config = optional_text(file, "/config");
   pack.summary = read_summary(file);
   return pack;
+}
+
+MaterialResult read_material_tests(const std::filesystem::path& path) {
+  const io::Hdf5Reader file(path);
+  require_format(file, test_format, "a file of material tests");
+  MaterialResult result;
+  result.path = path;
+  result.provenance = read_provenance(file);
+  result.sample = geometry::read_packing(file, "/sample");
+  require_packing(file, "/sample", result.sample);
+  for (const std::string& child : file.children("/tests")) {
+    const std::string group = "/tests/" + child;
+    const std::size_t dash = child.rfind('-');
+    if (dash == std::string::npos || child.find_first_not_of("0123456789", dash + 1) != std::string::npos)
+      refuse(file, group, "is not named after a test and a replicate", "as tension-000");
+    MaterialTest test;
+    test.name = child.substr(0, dash);
+    test.replicate = std::stoi("0" + child.substr(dash + 1, 6));
+    test.strain = finite_doubles(file, group + "/curve/strain");
+    test.stress = finite_doubles(file, group + "/curve/stress");
+    require_size(file, group + "/curve/stress", test.stress, test.strain.size());
+    if (file.has(group + "/frame"))
+      test.frame = read_frame_group(file, group + "/frame", read_frame_info(file, group + "/frame", child),
+                                    result.sample.size());
+    result.tests.push_back(std::move(test));
+  }
+  result.config = optional_text(file, "/config");
+  result.summary = read_summary(file);
+  return result;
 }
 
 std::optional<double> summary_number(const nlohmann::json& summary, std::string_view key) {

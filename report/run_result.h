@@ -1,4 +1,4 @@
-// What is here: R.h5 and P.h5 read into plain structs, checked on the way in (docs/formats.md).
+// What is here: R.h5, P.h5 and T.h5 read into plain structs, checked on the way in (docs/formats.md).
 // What is not: how such files are written (solver, geometry), pictures, exports.
 #pragma once
 
@@ -94,12 +94,31 @@ struct PackResult {
   nlohmann::json summary;
 };
 
+/// One test of T.h5; the frame is read for replicate 0 only.
+struct MaterialTest {
+  std::string name;  ///< "tension", "compression", "shear", "oedometric"
+  int replicate = 0;
+  std::vector<double> strain, stress;  ///< stress Pa; positive as the test loads
+  std::optional<Frame> frame;          ///< the sample at the end
+};
+
+/// T.h5.
+struct MaterialResult {
+  std::filesystem::path path;
+  Provenance provenance;
+  geometry::Packing sample;
+  std::vector<MaterialTest> tests;  ///< by name, then by replicate
+  std::string config;
+  nlohmann::json summary;
+};
+
 /// Throws io::InputError for a file that is missing, not HDF5, of another `format`, or whose columns are unequally long
 /// or not finite.
 RunResult read_run(const std::filesystem::path& path);
 /// `index` into run.frames. Throws as read_run does; also when an index in it points outside the discs.
 Frame read_frame(const RunResult& run, std::size_t index);
 PackResult read_pack(const std::filesystem::path& path);
+MaterialResult read_material_tests(const std::filesystem::path& path);
 
 /// A number of a summary (also of its objects `summary` and `pack`), std::nullopt where the key is missing or null (not
 /// reached).

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "solver/options.h"
 
@@ -78,6 +79,28 @@ inline double updated_damage(const BondLaw& law, double delta_n, double delta_t,
   }
   const double zeta = std::clamp(1.0 / s, 1.0, law.rupture_delay);
   return std::max(damage, std::min(1.0, damage_of_zeta(law, zeta)));
+}
+
+/// Factor s > 0 by which the displacements (m) must be multiplied to reach the first yield phi(1) = 0 of an undamaged
+/// bond: the root of a s + (b s)^alpha = 1; infinite for a bond that compression alone never breaks.
+inline double yield_load_factor(const BondLaw& law, double delta_n, double delta_t, double strength) {
+  const double a = delta_n * law.inverse_critical_normal / strength;
+  const double b = std::fabs(delta_t) * law.inverse_critical_shear / strength;
+  const auto excess = [&](double s) { return a * s + half_integer_power(b * s, law.twice_alpha) - 1.0; };
+  // Convex with excess(0) = -1: at most one positive root, bracketed by doubling, then halved.
+  double low = 0.0, high = 1.0 / std::max(std::fabs(a), b);
+  constexpr int most_doublings = 200, halvings = 60;  // to the last bit of a double
+  if (!(high < 1e300)) return high;
+  for (int k = 0; excess(high) < 0.0; ++k) {
+    if (k == most_doublings) return std::numeric_limits<double>::infinity();
+    low = high;
+    high *= 2.0;
+  }
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 /// Share of the normal stiffness that is left: damage always weakens tension; compression only with

@@ -95,6 +95,15 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Strain between history rows.")
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
             "Wall time between checkpoints.");
+  TestOptions& test = options.test;
+  schema.section("test", "Tests of the solid material (perfora test, perfora calibrate) on a square periodic sample.")
+      .real("size", test.size, Dimension::length, Range::positive(), "Side of the sample.")
+      .boolean("tension", test.tension, "Uniaxial tension with stress-free sides.")
+      .boolean("compression", test.compression, "Uniaxial compression with stress-free sides.")
+      .boolean("shear", test.shear, "Simple shear without normal stress.")
+      .boolean("oedometric", test.oedometric, "Compression with the width held.")
+      .real("past_peak", test.past_peak, Dimension::none, {1.1, 100.0, false, false},
+            "A compression test ends at this many times the strain of its peak.");
 }
 
 void validate(const SolverOptions& options, const io::Schema& schema) {

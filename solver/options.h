@@ -74,6 +74,13 @@ struct OutputOptions {
   double checkpoint_interval = 60.0;  ///< seconds of wall time between checkpoints
 };
 
+/// [test]: what `perfora test` and `perfora calibrate` do with the solid material.
+struct TestOptions {
+  double size = 0.025;  ///< side of the square periodic sample, m
+  bool tension = true, compression = true, shear = true, oedometric = true;
+  double past_peak = 1.5;  ///< a test ends at this many times the strain of its peak
+};
+
 struct SolverOptions {
   MaterialOptions material;
   NoiseOptions noise;
@@ -81,9 +88,10 @@ struct SolverOptions {
   DynamicsOptions dynamics;
   MeasureOptions measures;
   OutputOptions output;
+  TestOptions test;
 };
 
-/// Adds [material], [noise], [loading], [dynamics], [measures], [output]. A noise amplitude that makes a factor <= 0 is
+/// Adds [material], [noise], [loading], [dynamics], [measures], [output], [test]. A noise amplitude that makes a factor <= 0 is
 /// caught by validate().
 void describe(io::Schema& schema, SolverOptions& options);
 

@@ -15,6 +15,7 @@
 
 #include "io/progress.h"
 #include "solver/fragments.h"
+#include "solver/frame.h"
 #include "solver/measures.h"
 #include "solver/run_files.h"
 #include "solver/run_setup.h"
@@ -55,15 +56,6 @@ Cell oedometric_cell(const geometry::PerforationLayout& layout, double rate) {
   return cell;
 }
 
-std::vector<std::int32_t> bonds_per_disc(const BondNetwork& network, std::size_t discs) {
-  std::vector<std::int32_t> count(discs, 0);
-  for (std::size_t b = 0; b < network.i.size(); ++b) {
-    ++count[static_cast<std::size_t>(network.i[b])];
-    ++count[static_cast<std::size_t>(network.j[b])];
-  }
-  return count;
-}
-
 /// Rows after which a frame is written, the first peak aside.
 bool frame_due(const OutputOptions& output, std::int64_t row, std::int64_t rows) {
   const auto at_multiple = [&](double stride) {
@@ -86,7 +78,7 @@ class Run {
       : request_(request),
         setup_(set_up_run(request)),
         folder_(request.run_file),
-        original_bonds_(bonds_per_disc(setup_.network, request.clipped->x.size())) {
+        original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
     Summary& summary = response_.summary;
     summary.noise_mean = strength.mean;
@@ -148,7 +140,7 @@ class Run {
       add_row();
       const auto& strains = request_.options.output.frame_strains;
       const bool wants_start = strains.empty() || std::find(strains.begin(), strains.end(), 0.0) != strains.end();
-      if (wants_frames() && wants_start) take_frame();
+      if (wants_frames() && wants_start) keep_frame();
     }
   }
 
@@ -242,7 +234,7 @@ class Run {
   void after_row() {
     if (wants_frames() && (frame_due(request_.options.output, progress_.rows, setup_.rows) ||
                            (peak_just_passed_ && request_.options.output.frame_strains.empty())))
-      take_frame();
+      keep_frame();
     peak_just_passed_ = false;
     if (request_.progress) {
       const double elapsed = seconds_since(started_);
@@ -253,7 +245,9 @@ class Run {
     }
   }
 
-  void take_frame() { write_frame(folder_.frame_file(progress_.frames++), *simulation_, original_bonds_); }
+  void keep_frame() {
+    write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_));
+  }
 
   bool failed() {
     const History& h = progress_.history;

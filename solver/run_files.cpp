@@ -10,7 +10,6 @@
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
 #include "io/journal.h"
-#include "solver/fragments.h"
 
 namespace perfora::solver {
 namespace {
@@ -72,6 +71,8 @@ Simulation::Progress unpack(const std::vector<double>& v) {
   return p;
 }
 
+}  // namespace
+
 void write_events(io::Hdf5Writer& file, const std::string& group, const std::vector<BreakEvent>& events) {
   std::vector<double> time, strain, x, y, energy;
   std::vector<std::int32_t> bond, i, j;
@@ -99,6 +100,8 @@ void write_events(io::Hdf5Writer& file, const std::string& group, const std::vec
   file.dataset(group + "/bond", bond);
 }
 
+namespace {
+
 std::vector<BreakEvent> read_events(const io::Hdf5Reader& file, const std::string& group) {
   const auto time = file.doubles(group + "/time"), strain = file.doubles(group + "/strain"),
              x = file.doubles(group + "/x"), y = file.doubles(group + "/y"), energy = file.doubles(group + "/energy");
@@ -117,10 +120,9 @@ void write_history(io::Hdf5Writer& file, const std::string& group, const History
   }
 }
 
-std::vector<std::int32_t> pairs_of(const BondNetwork& network, bool only_intact) {
+std::vector<std::int32_t> pairs_of(const BondNetwork& network) {
   std::vector<std::int32_t> pairs;
   for (std::size_t b = 0; b < network.i.size(); ++b) {
-    if (only_intact && network.state[b] != BondState::intact) continue;
     pairs.push_back(network.i[b]);
     pairs.push_back(network.j[b]);
   }
@@ -177,37 +179,23 @@ void RunFolder::remove() const {
   std::filesystem::remove_all(folder_);
 }
 
-void write_frame(const std::filesystem::path& path, const Simulation& simulation,
-                 const std::vector<std::int32_t>& original_bonds) {
-  const BondNetwork& network = simulation.network();
-  const DiscState& discs = simulation.discs();
-  const auto n = static_cast<std::size_t>(discs.size());
-  std::vector<double> position, bond_damage, kept(n, 0.0), lost(n, 0.0);
-  for (std::int32_t d = 0; d < discs.size(); ++d) {
-    const auto [x, y] = simulation.position(d);
-    position.push_back(x);
-    position.push_back(y);
-  }
-  for (std::size_t b = 0; b < network.i.size(); ++b) {
-    if (network.state[b] != BondState::intact) continue;
-    bond_damage.push_back(network.damage[b]);
-    kept[static_cast<std::size_t>(network.i[b])] += 1.0 - network.damage[b];
-    kept[static_cast<std::size_t>(network.j[b])] += 1.0 - network.damage[b];
-  }
-  for (std::size_t d = 0; d < n; ++d) lost[d] = original_bonds[d] > 0 ? 1.0 - kept[d] / original_bonds[d] : 0.0;
-  const Fragments fragments = find_fragments(network, discs.radius);
+void write_frame_group(io::Hdf5Writer& file, const std::string& group, const FrameData& frame) {
+  file.dataset(group + "/discs/position", frame.position, 2, "m");
+  file.dataset(group + "/discs/angle", frame.angle, 0, "rad");
+  file.dataset(group + "/discs/fragment", frame.fragment);
+  file.dataset(group + "/discs/damage", frame.lost);
+  file.dataset(group + "/bonds/pairs", frame.bond_pairs, 2);
+  file.dataset(group + "/bonds/damage", frame.bond_damage);
+  file.attribute(group, "strain", frame.strain);
+  file.attribute(group, "time", frame.time);
+  file.attribute(group, "h_xx", frame.cell.xx);
+  file.attribute(group, "h_xy", frame.cell.xy);
+  file.attribute(group, "h_yy", frame.cell.yy);
+}
+
+void write_frame(const std::filesystem::path& path, const FrameData& frame) {
   io::Hdf5Writer file(path);
-  file.dataset("/frame/discs/position", position, 2, "m");
-  file.dataset("/frame/discs/angle", discs.angle, 0, "rad");
-  file.dataset("/frame/discs/fragment", fragments.label);
-  file.dataset("/frame/discs/damage", lost);
-  file.dataset("/frame/bonds/pairs", pairs_of(network, true), 2);
-  file.dataset("/frame/bonds/damage", bond_damage);
-  file.attribute("/frame", "strain", simulation.strain());
-  file.attribute("/frame", "time", simulation.time());
-  file.attribute("/frame", "h_xx", simulation.cell().xx);
-  file.attribute("/frame", "h_xy", simulation.cell().xy);
-  file.attribute("/frame", "h_yy", simulation.cell().yy);
+  write_frame_group(file, "/frame", frame);
   file.commit();
 }
 
@@ -321,7 +309,7 @@ void write_run_file(const RunRequest& request, const Simulation& simulation, con
   for (int k = 0; k < progress.frames; ++k)
     file.copy_from(folder.frame_file(k), "/frame", fmt::format("/frames/{:05d}", k));
   write_events(file, "/events", simulation.events());
-  file.dataset("/bonds/pairs", pairs_of(network, false), 2);
+  file.dataset("/bonds/pairs", pairs_of(network), 2);
   file.dataset("/bonds/rest_length", network.rest_length, 0, "m");
   file.dataset("/bonds/strength_factor", network.strength);
   if (request.periodic != nullptr) geometry::write_packing(file, "/packing", *request.periodic);

@@ -7,9 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "solver/frame.h"
 #include "solver/response.h"
 #include "solver/run.h"
 #include "solver/simulation.h"
+
+namespace perfora::io {
+class Hdf5Writer;
+}
 
 namespace perfora::solver {
 
@@ -31,8 +36,10 @@ class RunFolder {
   std::filesystem::path folder_;
 };
 
-void write_frame(const std::filesystem::path& file, const Simulation& simulation,
-                 const std::vector<std::int32_t>& original_bonds);
+/// A frame (docs/formats.md, "/frames") as a file of its own, or into a group of an open file.
+void write_frame(const std::filesystem::path& file, const FrameData& frame);
+void write_frame_group(io::Hdf5Writer& file, const std::string& group, const FrameData& frame);
+void write_events(io::Hdf5Writer& file, const std::string& group, const std::vector<BreakEvent>& events);
 
 /// What run.cpp keeps beside the simulation and must find again.
 struct RunProgress {
