@@ -1,5 +1,5 @@
 // What is here: the keys of [cell] and [layout], the regular and listed families, and what is refused.
-// What is not: random placement (layout_random.cpp), wall thickness (wall.cpp).
+// What is not: lattices (layout_lattice.cpp), random placement (layout_random.cpp), wall thickness (wall.cpp).
 #include "geometry/layout.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "geometry/layout_lattice.h"
 #include "geometry/layout_random.h"
 #include "geometry/random.h"
 #include "io/csv.h"
@@ -18,6 +19,8 @@ namespace {
 
 /// More holes than this are a mistake of units or count: a block has at most thousands.
 constexpr std::int64_t maximum_holes = 10000;
+/// Most that the diameters of a graded layout may differ, over their mean: at 2 the smallest row would have none.
+constexpr double largest_grading = 1.9;
 /// Smallest wall that counts as thinner than the wanted one, relative to the cell: rounding of a wall that is exactly
 /// as thick as wanted.
 constexpr double wall_rounding = 1e-12;
@@ -51,36 +54,15 @@ class Layouter {
     refuse_unless(std::isfinite(options_.height) && options_.height > 0.0, "cell.height", "the cell has no height",
                   "a positive length");
     if (options_.family == LayoutFamily::none) return;
-    if (options_.family == LayoutFamily::list) {
-      refuse_unless(options_.holes.empty() != options_.file.empty(), "layout.holes",
-                    "a list layout needs either layout.holes or layout.file", "exactly one of the two",
-                    "give rows of x, y, diameter or the name of a CSV file");
-      refuse_unless(options_.holes.size() % 3 == 0, "layout.holes", "a hole has three numbers",
-                    "rows of x, y, diameter");
-      return;
-    }
+    if (options_.family == LayoutFamily::list) return check_list();
     refuse_unless(std::isfinite(options_.diameter) && options_.diameter > 0.0, "layout.diameter", "holes have no size",
                   "a positive length");
-    if (options_.family == LayoutFamily::random) {
+    if (options_.family == LayoutFamily::random)
       refuse_unless(options_.count >= 1, "layout.count", "there is no hole to place", "1 or more",
                     "use family = \"none\" for a solid block");
-      refuse_count(options_.count, "layout.count");
-      return;
-    }
-    refuse_unless(options_.rows >= 1, "layout.rows", "there is no row of holes", "1 or more",
-                  "use family = \"none\" for a solid block");
-    refuse_unless(options_.columns >= 1, "layout.columns", "there is no column of holes", "1 or more",
-                  "use family = \"none\" for a solid block");
-    refuse_count(static_cast<std::int64_t>(options_.rows) * options_.columns, "layout.rows");
-    refuse_unless(std::isfinite(options_.jitter) && options_.jitter >= 0.0, "layout.jitter", "jitter is a radius",
-                  "zero or more");
-    if (options_.family == LayoutFamily::staggered) {
-      refuse_unless(std::isfinite(options_.stagger), "layout.stagger", "stagger is not a number",
-                    "a fraction of the pitch");
-      refuse_unless(options_.rows % 2 == 0 || options_.stagger == std::round(options_.stagger), "layout.rows",
-                    std::to_string(options_.rows) + " rows shifted in turn do not repeat periodically",
-                    "an even number of rows", "add or leave out a row, or use family = \"square\"");
-    }
+    else
+      check_lattice();
+    refuse_count(hole_count(options_), count_key(options_));
   }
 
   PerforationLayout place() const {
@@ -89,10 +71,16 @@ class Layouter {
       case LayoutFamily::none:
         break;
       case LayoutFamily::square:
-        place_rows(layout, 0.0);
+        layout.perforations = jittered(place_in_rows(options_, 0.0, 0.0));
         break;
       case LayoutFamily::staggered:
-        place_rows(layout, options_.stagger);
+        layout.perforations = jittered(place_in_rows(options_, options_.stagger, 0.0));
+        break;
+      case LayoutFamily::rotated:
+        layout.perforations = jittered(place_turned(options_));
+        break;
+      case LayoutFamily::graded:
+        layout.perforations = jittered(place_in_rows(options_, 0.0, options_.grading));
         break;
       case LayoutFamily::random:
         layout.perforations = at_random().perforations;
@@ -120,19 +108,48 @@ class Layouter {
                   "at most " + std::to_string(maximum_holes) + " holes", "lower the number of holes");
   }
 
-  void place_rows(PerforationLayout& layout, double stagger) const {
-    const double pitch_x = options_.width / options_.columns, pitch_y = options_.height / options_.rows;
-    for (int row = 0; row < options_.rows; ++row)
-      for (int column = 0; column < options_.columns; ++column) {
-        double x = (column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, y = (row + 0.5) * pitch_y;
-        if (options_.jitter > 0.0) {
-          const auto u = uniform_pair(seed_, RandomStream::hole_jitter, layout.perforations.size());
-          const double distance = options_.jitter * std::sqrt(u[0]), angle = 2.0 * std::numbers::pi * u[1];
-          x += distance * std::cos(angle);
-          y += distance * std::sin(angle);
-        }
-        layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), options_.diameter});
+  void check_list() const {
+    refuse_unless(options_.holes.empty() != options_.file.empty(), "layout.holes",
+                  "a list layout needs either layout.holes or layout.file", "exactly one of the two",
+                  "give rows of x, y, diameter or the name of a CSV file");
+    refuse_unless(options_.holes.size() % 3 == 0, "layout.holes", "a hole has three numbers", "rows of x, y, diameter");
+  }
+
+  void check_lattice() const {
+    refuse_unless(options_.rows >= 1, "layout.rows", "there is no row of holes", "1 or more",
+                  "use family = \"none\" for a solid block");
+    refuse_unless(options_.columns >= 1, "layout.columns", "there is no column of holes", "1 or more",
+                  "use family = \"none\" for a solid block");
+    refuse_unless(std::isfinite(options_.jitter) && options_.jitter >= 0.0, "layout.jitter", "jitter is a radius",
+                  "zero or more");
+    if (options_.family == LayoutFamily::staggered) {
+      refuse_unless(std::isfinite(options_.stagger), "layout.stagger", "stagger is not a number",
+                    "a fraction of the pitch");
+      refuse_unless(options_.rows % 2 == 0 || options_.stagger == std::round(options_.stagger), "layout.rows",
+                    std::to_string(options_.rows) + " rows shifted in turn do not repeat periodically",
+                    "an even number of rows", "add or leave out a row, or use family = \"square\"");
+    }
+    if (options_.family == LayoutFamily::graded) {
+      refuse_unless(std::abs(options_.grading) < largest_grading, "layout.grading",
+                    "with this grading a row of holes would have no size", "between -1.9 and 1.9");
+      refuse_unless(options_.rows >= 2, "layout.rows", "one row cannot be graded from bottom to top", "2 or more rows",
+                    "add a row, or use family = \"square\"");
+    }
+  }
+
+  /// Moves every centre within the jitter's disc, then back into the cell.
+  std::vector<Perforation> jittered(std::vector<Perforation> holes) const {
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+      if (options_.jitter > 0.0) {
+        const auto u = uniform_pair(seed_, RandomStream::hole_jitter, k);
+        const double distance = options_.jitter * std::sqrt(u[0]), angle = 2.0 * std::numbers::pi * u[1];
+        holes[k].x += distance * std::cos(angle);
+        holes[k].y += distance * std::sin(angle);
       }
+      holes[k].x = wrap(holes[k].x, options_.width);
+      holes[k].y = wrap(holes[k].y, options_.height);
+    }
+    return holes;
   }
 
   void place_list(PerforationLayout& layout) const {
@@ -171,6 +188,10 @@ const char* size_key(LayoutFamily family) {
   return family == LayoutFamily::list ? "layout.holes" : "layout.diameter";
 }
 
+const char* smaller_holes(LayoutFamily family) {
+  return family == LayoutFamily::graded ? "lower the diameter, take a grading nearer to 0" : "lower the diameter";
+}
+
 }  // namespace
 
 void describe(io::Schema& schema, LayoutOptions& options) {
@@ -185,23 +206,65 @@ void describe(io::Schema& schema, LayoutOptions& options) {
               {{"none", LayoutFamily::none},
                {"square", LayoutFamily::square},
                {"staggered", LayoutFamily::staggered},
+               {"rotated", LayoutFamily::rotated},
+               {"graded", LayoutFamily::graded},
                {"random", LayoutFamily::random},
                {"list", LayoutFamily::list}},
               "Family of arrangements.")
       .real("diameter", options.diameter, Dimension::length, Range::positive(),
-            "Diameter of the holes (every family but list).")
-      .integer("rows", options.rows, Range::between(1, 1000), "Rows of holes, one above the other (square, staggered).")
-      .integer("columns", options.columns, Range::between(1, 1000), "Holes in a row (square, staggered).")
+            "Diameter of the holes (every family but list); of graded ones the mean over the rows.")
+      .integer("rows", options.rows, Range::between(1, 1000),
+               "Rows of holes, one above the other (square, staggered, rotated, graded).")
+      .integer("columns", options.columns, Range::between(1, 1000),
+               "Holes in a row (square, staggered, rotated, graded).")
       .real("stagger", options.stagger, Dimension::ratio, Range::between(0, 1),
             "Shift of every other row as a fraction of the horizontal pitch (staggered); needs an even number of rows.")
+      .integer(
+          "turn", options.turn, Range::between(-1000, 1000),
+          "Turns the square lattice by atan(turn/columns), anticlockwise when positive, so that it still repeats; "
+          "that makes rows x columns + turn^2 holes (rotated). Exactly square where the cell is and rows = columns, "
+          "else stretched with the cell.")
+      .real("grading", options.grading, Dimension::ratio, Range{-largest_grading, largest_grading, true, true},
+            "Diameter of the top row less that of the bottom row, over the mean; linear over the rows (graded).")
       .real("jitter", options.jitter, Dimension::length, Range::non_negative(),
-            "Each centre moves uniformly within a disc of this radius (square, staggered).")
+            "Each centre moves uniformly within a disc of this radius (square, staggered, rotated, graded).")
       .integer("count", options.count, Range::between(1, static_cast<double>(maximum_holes)),
                "Number of holes (random).")
       .real("minimum_wall", options.minimum_wall, Dimension::length, Range::non_negative(),
             "A thinner wall is refused; random placement keeps it.")
       .real_rows("holes", options.holes, 3, Dimension::length, "Rows of x, y, diameter (list).")
       .path("file", options.file, "CSV with columns x, y, diameter in metres, instead of holes (list).");
+}
+
+std::int64_t hole_count(const LayoutOptions& options) {
+  const std::int64_t rows = options.rows, columns = options.columns, turn = options.turn;
+  switch (options.family) {
+    case LayoutFamily::none:
+      return 0;
+    case LayoutFamily::square:
+    case LayoutFamily::staggered:
+    case LayoutFamily::graded:
+      return rows * columns;
+    case LayoutFamily::rotated:
+      return rows * columns + turn * turn;
+    case LayoutFamily::random:
+      return options.count;
+    case LayoutFamily::list:
+      return static_cast<std::int64_t>(options.holes.size() / 3);
+  }
+  return 0;
+}
+
+const char* count_key(const LayoutOptions& options) {
+  if (options.family == LayoutFamily::random) return "layout.count";
+  if (options.family == LayoutFamily::list) return "layout.holes";
+  const std::int64_t rows = options.rows, columns = options.columns, turn = options.turn;
+  if (options.family == LayoutFamily::rotated && turn * turn > rows * columns) return "layout.turn";
+  return rows >= columns ? "layout.rows" : "layout.columns";
+}
+
+bool equal_holes(LayoutFamily family) {
+  return family != LayoutFamily::graded && family != LayoutFamily::list;
 }
 
 PerforationLayout place_perforations(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
@@ -230,17 +293,18 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   }
   PerforationLayout layout = layouter.place();
   for (std::size_t k = 0; k < layout.perforations.size(); ++k)
-    layouter.refuse_unless(layout.perforations[k].diameter < side, "layout.holes",
+    layouter.refuse_unless(layout.perforations[k].diameter < side, size_key(options.family),
                            "hole " + std::to_string(k + 1) + " of " + millimetres(layout.perforations[k].diameter) +
                                " is larger than the cell",
-                           "less than " + millimetres(side), "lower its diameter or enlarge the cell");
+                           "less than " + millimetres(side),
+                           std::string(smaller_holes(options.family)) + " or enlarge the cell");
   const ThinnestWall wall = thinnest_wall(layout);
   const std::string pair = wall.first == wall.second
                                ? "hole " + std::to_string(wall.first + 1) + " and its periodic image"
                                : "holes " + std::to_string(wall.first + 1) + " and " + std::to_string(wall.second + 1);
   layouter.refuse_unless(wall.thickness > 0.0, size_key(options.family),
                          pair + (wall.thickness < 0.0 ? " overlap by " + millimetres(-wall.thickness) : " touch"),
-                         "walls thicker than 0", "lower the diameter or the number of holes");
+                         "walls thicker than 0", std::string(smaller_holes(options.family)) + " or take fewer holes");
   layouter.refuse_unless(wall.thickness >= options.minimum_wall - wall_rounding * side, "layout.minimum_wall",
                          "the wall between " + pair + " is " + millimetres(wall.thickness),
                          "at least the minimum wall of " + millimetres(options.minimum_wall),

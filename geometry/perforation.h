@@ -12,6 +12,7 @@ struct Perforation {
   double y = 0.0;
   double diameter = 0.0;
 
+  bool operator==(const Perforation&) const = default;
   /// Whether the point (no periodic image taken) lies inside the hole.
   bool contains(double px, double py) const;
   /// How far the straight segment a-b dips into the hole, metres: radius minus the distance from the centre to the segment, 0 when it does not enter.

@@ -25,41 +25,20 @@ double millimetres(double metres) {
   return 1.0e3 * metres;
 }
 
-std::int64_t hole_count(const geometry::LayoutOptions& layout) {
-  switch (layout.family) {
-    case geometry::LayoutFamily::none:
-      return 0;
-    case geometry::LayoutFamily::square:
-    case geometry::LayoutFamily::staggered:
-      return std::int64_t{layout.rows} * layout.columns;
-    case geometry::LayoutFamily::random:
-      return layout.count;
-    case geometry::LayoutFamily::list:
-      return static_cast<std::int64_t>(layout.holes.size() / 3);
-  }
-  return 0;
-}
-
-std::string count_key(const geometry::LayoutOptions& layout) {
-  if (layout.family == geometry::LayoutFamily::random) return "layout.count";
-  if (layout.family == geometry::LayoutFamily::list) return "layout.holes";
-  return layout.rows >= layout.columns ? "layout.rows" : "layout.columns";
-}
-
 /// Refuses a hopeless number of holes before any is placed: n points in a periodic cell of area A have two nearer than
 /// sqrt(2 A/(sqrt(3) n)) (densest lattice packing in the plane: Thue), so the thinnest wall is below that minus the
-/// diameter.
+/// diameter. Of unequal holes the two nearest may be small ones: those are left to make_layout.
 void check_hole_count(const Design& design, const io::Schema& schema, double horizon_radius) {
   const geometry::LayoutOptions& layout = design.layout;
-  const std::int64_t holes = hole_count(layout);
-  if (holes <= 0 || layout.family == geometry::LayoutFamily::list) return;
+  const std::int64_t holes = geometry::hole_count(layout);
+  if (holes <= 0 || !geometry::equal_holes(layout.family)) return;
   const double area = layout.width * layout.height;
   const double closest = std::sqrt(2.0 * area / (std::numbers::sqrt3 * static_cast<double>(holes)));
   if (closest - layout.diameter >= horizon_radius) return;
   const double most = 2.0 * area / (std::numbers::sqrt3 * std::pow(layout.diameter + horizon_radius, 2));
   if (most < 1.0) return;  // not the number is wrong: make_layout and check_walls say what
   throw io::InputError(
-      schema.origin(count_key(layout)),
+      schema.origin(geometry::count_key(layout)),
       fmt::format(
           "{} holes of {:.4g} mm leave no wall of at least the horizon of {:.4g} mm in a cell of {:.4g} x {:.4g} mm",
           holes, millimetres(layout.diameter), millimetres(horizon_radius), millimetres(layout.width),

@@ -15,6 +15,8 @@ namespace {
 
 /// Points on which the share of an arm's bounds that keeps the constraints is measured.
 constexpr int samples = 64;
+/// Points on which two arms are held against each other: those that differ have other holes at any of them.
+constexpr int compared = 3;
 /// A product of choices beyond this is a slip of the pen.
 constexpr std::size_t most_arms = 1000;
 
@@ -180,6 +182,46 @@ double feasible_share(const Study& study, const Arm& arm) {
   return laid == 0 ? -1.0 : static_cast<double>(kept) / samples;
 }
 
+/// An arm's holes at the first points of its bounds.
+struct ArmHoles {
+  bool complete = true;  ///< false: somewhere they cannot be placed
+  std::vector<std::vector<geometry::Perforation>> holes;
+  bool same(const ArmHoles& other) const { return complete && other.complete && holes == other.holes; }
+};
+
+ArmHoles holes_of(const Study& study, const Arm& arm) {
+  ArmHoles found;
+  const int dimension = static_cast<int>(study.variables.size());
+  try {
+    for (int k = 0; k < compared; ++k) {
+      const Design design = study.design_at(&arm, study.values_at(halton_point(k, dimension))).design();
+      found.holes.push_back(geometry::place_perforations(design.layout, design.seeds.effective(0).layout).perforations);
+    }
+  } catch (const io::InputError&) {
+    found.complete = false;  // drop_impossible says why
+  }
+  return found;
+}
+
+/// Arms whose choices say nothing to their family (the turn of a square one) are one and the same search.
+void drop_repeated(Study& study) {
+  std::vector<Arm> different;
+  std::vector<ArmHoles> known;
+  for (const Arm& arm : study.arms) {
+    ArmHoles holes = holes_of(study, arm);
+    std::size_t k = 0;
+    while (k < known.size() && !(different[k].start == arm.start && known[k].same(holes))) ++k;
+    if (k < known.size()) {
+      study.warnings.push_back(
+          fmt::format("arm {} is left out: its holes are those of arm {}", arm.name, different[k].name));
+      continue;
+    }
+    different.push_back(arm);
+    known.push_back(std::move(holes));
+  }
+  study.arms = std::move(different);
+}
+
 std::vector<double> drop_impossible(Study& study) {
   std::vector<Arm> possible;
   std::vector<double> shares;
@@ -273,6 +315,7 @@ void make_arms(Study& study, const ArmEntries& entries, const io::Origin& alloca
   if (study.arms.size() > most_arms)
     throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms),
                          "", "narrow them");
+  drop_repeated(study);
   const auto shares = drop_impossible(study);
   allocate(study, shares, allocation);
 }

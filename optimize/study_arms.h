@@ -19,8 +19,8 @@ struct ArmEntries {
 void make_variables(Study& study, const ArmEntries& entries);
 
 /// Sets study.arms: the product of all choices (integer keys of [variables] are ranges [lowest, highest]; [arms] lists
-/// single values) and starts. Arms that cannot be laid are left out with a warning. `allocation` is the origin of that
-/// key. Throws io::InputError.
+/// single values) and starts. Arms that cannot be laid, and those with the same holes and start as one before them, are
+/// left out with a warning. `allocation` is the origin of that key. Throws io::InputError.
 void make_arms(Study& study, const ArmEntries& entries, const io::Origin& allocation);
 
 /// Point number `index` (from 0) of Halton's sequence in [0, 1)^dimension.

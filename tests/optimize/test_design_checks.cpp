@@ -48,6 +48,21 @@ TEST(DesignChecks, HopelessNumbersOfHolesAreRefusedAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }
 
+TEST(DesignChecks, TooManyHolesOfATurnedLatticeAreTheFaultOfTheLargerNumber) {
+  EXPECT_THAT(refusal("[layout]\nfamily = \"rotated\"\nturn = 1000\n"), HasSubstr("layout.turn: 1000036 holes"));
+  EXPECT_THAT(refusal("[layout]\nfamily = \"rotated\"\nturn = -7\n"), HasSubstr("layout.turn: 85 holes"));
+  EXPECT_THAT(refusal("[layout]\nfamily = \"rotated\"\nrows = 9\n"), HasSubstr("layout.rows: 55 holes"));
+}
+
+TEST(DesignChecks, WallsOfGradedRowsAreHeldAgainstTheHorizon) {
+  // The top row: 20 (1 + 0.4/2) = 24 mm at a pitch of 25 mm.
+  const std::string text = refusal("[layout]\nfamily = \"graded\"\ngrading = 0.4\n");
+  EXPECT_THAT(text, HasSubstr("layout.diameter"));
+  EXPECT_THAT(text, HasSubstr("1 mm between holes 31 and 32"));
+  EXPECT_THAT(refusal("[layout]\nfamily = \"graded\"\nrows = 101\ncolumns = 100\n"),
+              HasSubstr("layout.rows: 10100 holes are too many"));
+}
+
 TEST(DesignChecks, TheBoundOnHolesRefusesNoLayoutThatFits) {
   // 6 x 6 of 20 mm fit with 5 mm walls; so does every smaller number.
   for (int rows = 1; rows <= 6; ++rows)

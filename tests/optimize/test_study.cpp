@@ -2,6 +2,8 @@
 // worked out by hand. What is not: the search.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -91,6 +93,46 @@ TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
   std::set<std::uint32_t> seeds;
   for (const Arm& arm : study.arms) seeds.insert(arm.seed);
   EXPECT_EQ(seeds.size(), study.arms.size());
+}
+
+TEST_F(StudyFile, TurnsAreArmsOfTheRotatedFamilyOnly) {
+  // Two rows of two turned by 0 are the square holes, and a turn says nothing to the square ones.
+  const Study study = read(study_text("maxeval = 9", "family = [\"square\", \"rotated\"]\nturn = [0, 1, -2]"));
+  EXPECT_EQ(names(study),
+            (std::vector<std::string>{"family=square turn=0", "family=rotated turn=1", "family=rotated turn=-2"}));
+  EXPECT_EQ(shares(study), (std::vector<int>{3, 3, 3}));
+  int left_out = 0;
+  for (const std::string& warning : study.warnings)
+    left_out += has(warning, "is left out: its holes are those of arm family=square turn=0");
+  EXPECT_EQ(left_out, 3);
+  const LayoutMeasure measure = measure_layout(study.design_at(&study.arms[1], std::vector{0.016, 0.0}));
+  ASSERT_TRUE(measure.placed);
+  // Five holes at a pitch of 50 mm/sqrt(5).
+  EXPECT_NEAR(measure.thinnest_wall, 0.05 / std::sqrt(5.0) - 0.016, 1e-12);
+  EXPECT_NEAR(measure.porosity, 5.0 * std::numbers::pi * 0.008 * 0.008 / 0.0025, 1e-12);
+}
+
+TEST_F(StudyFile, ArmsWithTheSameHolesAndOtherStartsStay) {
+  const Study study = read(study_text("maxeval = 12\nstarts = 2", "turn = [1, 2]"));
+  EXPECT_EQ(names(study), (std::vector<std::string>{"turn=1 start=1", "turn=1 start=2"}));
+}
+
+TEST_F(StudyFile, GradingIsAVariableAndOneRowIsLeftOut) {
+  const Study study = read(
+      "[study]\ndesign = \"design.toml\"\nmaxeval = 4\nuntil = 0.45\n[target]\nplateau_stress = 2e5\n"
+      "[variables]\nlayout.diameter = [0.010, 0.012]\ngrading = [-0.4, \"80 %\"]\n"
+      "[arms]\nfamily = [\"graded\"]\nrows = [1, 2]\n");
+  EXPECT_EQ(names(study), (std::vector<std::string>{"family=graded rows=2"}));
+  ASSERT_EQ(study.variables.size(), 2U);
+  EXPECT_EQ(study.variables[1].key, "layout.grading");
+  EXPECT_DOUBLE_EQ(study.variables[1].low, -0.4);
+  EXPECT_DOUBLE_EQ(study.variables[1].high, 0.8);
+  EXPECT_TRUE(std::any_of(study.warnings.begin(), study.warnings.end(), [](const std::string& warning) {
+    return has(warning, "arm family=graded rows=1 is left out: one row cannot be graded");
+  }));
+  // 2 x 2 holes at a pitch of 25 mm, 12 (1 + 0.8/2) mm in the upper row.
+  const LayoutMeasure measure = measure_layout(study.design_at(&study.arms[0], std::vector{0.012, 0.8}));
+  EXPECT_NEAR(measure.thinnest_wall, 0.025 - 0.0168, 1e-12);
 }
 
 TEST_F(StudyFile, WholeNumbersInVariablesAreRanges) {
