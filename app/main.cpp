@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
   app::add_pack(program, exit_code);
   app::add_evaluate(program, exit_code);
   app::add_test(program, exit_code);
+  app::add_calibrate(program, exit_code);
   app::add_optimize(program, exit_code);
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);

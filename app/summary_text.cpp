@@ -216,6 +216,24 @@ std::string material_text(const json& material) {
   return text;
 }
 
+std::string calibrate_text(const json& object) {
+  std::string text = "Bond parameters found\n";
+  for (const auto& [key, value] : object.at("found").items())
+    text += line_text("material." + key, value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "none");
+  if (object.at("targets").empty()) return text;
+  text += fmt::format("  {:<26} {:>14} {:>14} {:>10}\n", "wanted", "", "reached", "");
+  for (const json& target : object.at("targets")) {
+    const std::string name = target.at("name").get<std::string>();
+    const Unit unit = name == "poisson_ratio" ? Unit::number : Unit::stress;
+    const auto text_of = [&](const char* key) {
+      return target.at(key).is_number() ? value_text(target.at(key).get<double>(), unit) : std::string("-");
+    };
+    text += fmt::format("  {:<26} {:>14} {:>14} {:>10}\n", name, text_of("wanted"), text_of("reached"),
+                        target.at("met").get<bool>() ? "met" : "NOT MET");
+  }
+  return text;
+}
+
 std::string optimize_text(const json& object) {
   std::string text = lines_text("Search", object, optimize_lines);
   if (const auto best = object.find("best"); best != object.end() && best->is_object()) {
@@ -276,6 +294,7 @@ std::string summary_text(const json& object) {
   std::string text = head_text(object);
   if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
   if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
+  if (schema == "perfora.calibrate/1") return text + calibrate_text(object) + performance_text(object);
   if (schema == "perfora.test/1") return text + material_text(object.at("material")) + performance_text(object);
   text += lines_text("Packing", object, pack_lines);
   text += lines_text("Curve", object, curve_lines) + plateau_window_text(object);

@@ -79,8 +79,7 @@ std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, i
   const std::vector<std::pair<const char*, std::function<double(const ByKind&)>>> list = {
       {"young_modulus", young},
       {"poisson_ratio", poisson},
-      {"young_modulus_plane_strain",
-       [&](const ByKind& s) { return plane_strain_young_modulus(young(s), poisson(s)); }},
+      {"young_modulus_plane_strain", [&](const ByKind& s) { return plane_strain_young_modulus(young(s), poisson(s)); }},
       {"poisson_ratio_plane_strain", [&](const ByKind& s) { return plane_strain_poisson_ratio(poisson(s)); }},
       {"shear_modulus", [](const ByKind& s) { return s.value(Kind::shear, &Result::modulus); }},
       {"oedometric_modulus", [](const ByKind& s) { return s.value(Kind::oedometric, &Result::modulus); }},
@@ -118,7 +117,9 @@ void sum_up(MaterialTests& tests) {
 
 }  // namespace
 
-double plane_strain_poisson_ratio(double two_dimensional) { return two_dimensional / (1.0 + two_dimensional); }
+double plane_strain_poisson_ratio(double two_dimensional) {
+  return two_dimensional / (1.0 + two_dimensional);
+}
 
 double plane_strain_young_modulus(double two_dimensional, double two_dimensional_poisson) {
   const double nu = plane_strain_poisson_ratio(two_dimensional_poisson);

@@ -66,7 +66,8 @@ void write_material_tests(const std::filesystem::path& path, const DesignFile& d
   file.attribute("/", "seeds", to_json(tests.seeds).dump());
   geometry::write_packing(file, "/sample", tests.sample);
   for (const MaterialTestRun& run : tests.runs) {
-    const std::string group = fmt::format("/tests/{}-{:03d}", solver::material_test_name(run.result.kind), run.replicate);
+    const std::string group =
+        fmt::format("/tests/{}-{:03d}", solver::material_test_name(run.result.kind), run.replicate);
     const solver::MaterialCurve& curve = run.result.curve;
     file.dataset(group + "/curve/strain", curve.strain);
     file.dataset(group + "/curve/stress", curve.stress, 0, "Pa");

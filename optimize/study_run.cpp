@@ -9,6 +9,7 @@
 
 #include "io/journal.h"
 #include "io/progress.h"
+#include "optimize/work_folder.h"
 
 namespace perfora::optimize {
 namespace {
@@ -47,29 +48,6 @@ json header(const Study& study, const std::string& command_line) {
 
 bool same(const char* event, const json& record) {
   return record.value("event", "") == event;
-}
-
-void prepare_folder(const StudyRunOptions& options) {
-  const auto journal = options.folder / "journal.jsonl";
-  std::error_code ignored;
-  if (std::filesystem::exists(options.folder, ignored) && !std::filesystem::is_directory(options.folder, ignored))
-    throw io::InputError({options.folder.string(), 0, ""}, "this is a file, and a study needs a folder", "",
-                         "name another one with -o");
-  if (options.force && !options.resume)
-    for (const char* name : own_files) std::filesystem::remove_all(options.folder / name);
-  if (!options.resume && std::filesystem::exists(journal))
-    throw io::InputError({options.folder.string(), 0, ""}, "this folder holds a study already", "",
-                         "go on with it by --resume, start over with --force, or name another folder with -o");
-  if (!std::filesystem::exists(journal))
-    for (const char* name : own_files)
-      if (std::filesystem::exists(options.folder / name))
-        throw io::InputError({(options.folder / name).string(), 0, ""}, "a study would overwrite this file", "",
-                             "start over with --force, or name another folder with -o");
-  std::filesystem::create_directories(options.folder, ignored);
-  if (ignored)
-    throw io::InputError({options.folder.string(), 0, ""},
-                         fmt::format("the folder cannot be made ({})", ignored.message()), "",
-                         "name another one with -o");
 }
 
 std::string stress_text(double stress) {
@@ -112,7 +90,7 @@ solver::History coarse_curve(const solver::History& history) {
 
 StudyRun::StudyRun(Study study, StudyRunOptions options)
     : study_(std::move(study)), options_(std::move(options)), driver_(study_) {
-  prepare_folder(options_);
+  prepare_work_folder(options_.folder, own_files, "study", options_.force, options_.resume);
   open();
 }
 

@@ -46,4 +46,9 @@ void draw_packing(const PackResult& pack, const std::filesystem::path& out, cons
 void plot_material_tests(const std::filesystem::path& test_file, const std::filesystem::path& out,
                          const PlotOptions& options = {});
 
+/// result.json of a calibration -> chart: compressive over tensile strength against delta_t0/delta_n0, a curve a
+/// zeta_max, with what was wanted and found. Throws io::InputError for another file.
+void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
+                    const PlotOptions& options = {});
+
 }  // namespace perfora::report

@@ -26,11 +26,10 @@ constexpr double facts_top = 868.0;
 constexpr double tick_room = 74.0;  ///< left of a chart
 
 /// Names of the tests in the order of the columns, with their headings.
-constexpr std::array<std::pair<const char*, const char*>, 4> columns = {
-    {{"tension", "Tension, sides free"},
-     {"compression", "Compression, sides free"},
-     {"shear", "Simple shear"},
-     {"oedometric", "Oedometric compression"}}};
+constexpr std::array<std::pair<const char*, const char*>, 4> columns = {{{"tension", "Tension, sides free"},
+                                                                         {"compression", "Compression, sides free"},
+                                                                         {"shear", "Simple shear"},
+                                                                         {"oedometric", "Oedometric compression"}}};
 
 struct Number {
   const char* key;

@@ -1,5 +1,5 @@
-// What is here: the periodic cell as an upper-triangular 2 x 2 matrix with a control per component: fixed, at a rate, or
-// following a wanted stress. What is not: discs.
+// What is here: the periodic cell as an upper-triangular 2 x 2 matrix with a control per component: fixed, at a rate,
+// or following a wanted stress. What is not: discs.
 #pragma once
 
 #include <array>

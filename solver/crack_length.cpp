@@ -22,7 +22,9 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
-double wrapped(double value, double period) { return value - period * std::floor(value / period); }
+double wrapped(double value, double period) {
+  return value - period * std::floor(value / period);
+}
 
 }  // namespace
 

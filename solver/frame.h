@@ -1,5 +1,5 @@
-// What is here: the state of all discs and intact bonds at one moment, as files and pictures take it. What is not: files
-// (run_files.h).
+// What is here: the state of all discs and intact bonds at one moment, as files and pictures take it. What is not:
+// files (run_files.h).
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace perfora::solver {
 struct FrameData {
   double strain = 0.0, time = 0.0;
   CellMatrix cell;
-  std::vector<double> position;        ///< (n,2), m, wrapped
-  std::vector<double> angle;           ///< rad
-  std::vector<std::int32_t> fragment;  ///< 0 is the largest
-  std::vector<double> lost;            ///< share of the original bonds lost, damage counted, 0 to 1
+  std::vector<double> position;          ///< (n,2), m, wrapped
+  std::vector<double> angle;             ///< rad
+  std::vector<std::int32_t> fragment;    ///< 0 is the largest
+  std::vector<double> lost;              ///< share of the original bonds lost, damage counted, 0 to 1
   std::vector<std::int32_t> bond_pairs;  ///< (m,2)
   std::vector<double> bond_damage;       ///< D
 };

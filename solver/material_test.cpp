@@ -15,13 +15,14 @@ namespace perfora::solver {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int rows_to_yield = 100;           // history rows up to the estimated yield strain
-constexpr double longest_test = 10.0;        // times the estimated yield strain: no peak until then is a result, too
+constexpr int rows_to_yield = 100;     // history rows up to the estimated yield strain
+constexpr double longest_test = 10.0;  // times the estimated yield strain: no peak until then is a result, too
 constexpr double slope_from = 0.1, slope_to = 0.4;  // of the strength: above the first waves, below the first damage
-constexpr double separated = 0.05;  // of the strength: a crack has crossed the sample
-constexpr double longest_separation = 4.0;  // times the strain of the peak: a crack that has not crossed by then is bridged
-constexpr double crack_link = 1.0;           // times <d>: broken bonds of one crack lie closer than discs do
-constexpr double shortest_crack = 3.0;       // times r_H: shorter ones are single flaws, not cracks
+constexpr double separated = 0.05;                  // of the strength: a crack has crossed the sample
+constexpr double longest_separation =
+    4.0;                                // times the strain of the peak: a crack that has not crossed by then is bridged
+constexpr double crack_link = 1.0;      // times <d>: broken bonds of one crack lie closer than discs do
+constexpr double shortest_crack = 3.0;  // times r_H: shorter ones are single flaws, not cracks
 /// The servo takes the lateral stress back this many times faster than a wave crosses the sample, so that it lags by
 /// nu/(transits x this) of the strength (0.04 % at 25 transits).
 constexpr double servo_speed = 20.0;
@@ -42,7 +43,9 @@ bool separates(MaterialTestKind kind) {
 }
 
 /// Sign of the vertical strain that a test loads with, compression positive.
-double direction_of(MaterialTestKind kind) { return kind == MaterialTestKind::tension ? -1.0 : 1.0; }
+double direction_of(MaterialTestKind kind) {
+  return kind == MaterialTestKind::tension ? -1.0 : 1.0;
+}
 
 Cell cell_of(MaterialTestKind kind, const geometry::Packing& sample, double rate, double servo_mobility) {
   Cell cell;
@@ -96,8 +99,7 @@ void read_moduli(MaterialTestResult& result) {
   if (last < first + fewest_rows || last >= curve.stress.size()) return;
   result.modulus = slope(curve.strain, curve.stress, first, last);
   if (axial(result.kind))
-    result.lateral_ratio =
-        direction_of(result.kind) * slope(curve.strain, curve.lateral_strain, first, last);
+    result.lateral_ratio = direction_of(result.kind) * slope(curve.strain, curve.lateral_strain, first, last);
   else if (result.kind == MaterialTestKind::oedometric)
     result.lateral_ratio = slope(curve.stress, curve.lateral_stress, first, last);
 }
@@ -131,8 +133,8 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
   SimulationInput& input = ready.input;
   input.clipped = &sample;
   input.options = options;
-  input.network = make_bond_network(sample, solid, options.material, options.noise, request.noise_seed,
-                                    request.mean_diameter);
+  input.network =
+      make_bond_network(sample, solid, options.material, options.noise, request.noise_seed, request.mean_diameter);
   if (input.network.size() == 0)
     throw io::InputError({"", 0, "material.horizon"}, "no two discs are near enough to be bonded", "",
                          "raise the horizon or the solid fraction");
@@ -150,9 +152,9 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
   ready.yield_strain = estimated_yield_strain(request.kind, options, request.mean_diameter,
                                               lengths / static_cast<double>(input.network.size()));
   result.rate = ready.yield_strain / (options.loading.transits * transit);
-  const double critical = std::max(
-      input.masses.critical_step,
-      critical_step_by_power_iteration(input.network, input.masses, options.material, options.dynamics.cundall_damping));
+  const double critical = std::max(input.masses.critical_step,
+                                   critical_step_by_power_iteration(input.network, input.masses, options.material,
+                                                                    options.dynamics.cundall_damping));
   const double longest =
       std::min(options.dynamics.step_factor * critical,
                contact_critical_step(input.masses, options.material, options.dynamics.cundall_damping));

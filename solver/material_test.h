@@ -1,5 +1,6 @@
-// What is here: one test of the solid material on a periodic sample: tension, compression, simple shear, oedometric, with
-// stress-free sides where the test has them. What is not: which samples and how many (optimize/material_tests.h), files.
+// What is here: one test of the solid material on a periodic sample: tension, compression, simple shear, oedometric,
+// with stress-free sides where the test has them. What is not: which samples and how many (optimize/material_tests.h),
+// files.
 #pragma once
 
 #include <cstdint>
@@ -46,12 +47,12 @@ struct MaterialTestResult {
   MaterialTestKind kind = MaterialTestKind::tension;
   RunStatus status = RunStatus::completed;
   std::string reason;
-  double strength = 0.0;        ///< largest stress, Pa
-  double peak_strain = 0.0;     ///< where it was reached
-  double modulus = 0.0;         ///< slope between 10 % and 40 % of the strength, Pa: E, E, G, C11
-  double lateral_ratio = 0.0;   ///< tension, compression: Poisson's ratio; oedometric: lateral over axial stress
-  double fracture_energy = 0.0; ///< tension: damage dissipation per crack length, J/m2
-  double crack_length = 0.0;    ///< tension: m, across the loading
+  double strength = 0.0;         ///< largest stress, Pa
+  double peak_strain = 0.0;      ///< where it was reached
+  double modulus = 0.0;          ///< slope between 10 % and 40 % of the strength, Pa: E, E, G, C11
+  double lateral_ratio = 0.0;    ///< tension, compression: Poisson's ratio; oedometric: lateral over axial stress
+  double fracture_energy = 0.0;  ///< tension: damage dissipation per crack length, J/m2
+  double crack_length = 0.0;     ///< tension: m, across the loading
   double energy_residual = 0.0;
   std::int64_t steps = 0, broken_bonds = 0, broken_in_tension = 0;
   double rate = 0.0, time_step = 0.0;
@@ -61,19 +62,20 @@ struct MaterialTestResult {
 };
 
 /// Runs one test: tension and shear until the stress has fallen to a twentieth of the strength (at most to four times
-/// the strain of the peak), the others to options.test.past_peak times the strain of the peak. Sequential; several may run side by side in threads. Numerical trouble and a test without a peak
-/// are a status. Throws io::InputError when nothing is bonded.
+/// the strain of the peak), the others to options.test.past_peak times the strain of the peak. Sequential; several may
+/// run side by side in threads. Numerical trouble and a test without a peak are a status. Throws io::InputError when
+/// nothing is bonded.
 MaterialTestResult run_material_test(const MaterialTestRequest& request);
 
-/// Strain at which a bond of the mean length first yields in its worst direction while the sample deforms affinely, with
-/// Voigt's Poisson ratio where the sides are free: what rate and length of a test rest on. Closed form but for the root
-/// of the yield function (laws.h).
+/// Strain at which a bond of the mean length first yields in its worst direction while the sample deforms affinely,
+/// with Voigt's Poisson ratio where the sides are free: what rate and length of a test rest on. Closed form but for the
+/// root of the yield function (laws.h).
 double estimated_yield_strain(MaterialTestKind kind, const SolverOptions& options, double mean_diameter,
                               double mean_bond_length);
 
-/// Length of the cracks across `direction` (0: measured along x, 1: along y) in metres: broken bonds whose midpoints lie
-/// within `link` of each other (periodic cell width x height) form a crack; each crack counts with the part of the side
-/// that its midpoints occupy, in pieces of `link`; cracks shorter than `shortest` do not count.
+/// Length of the cracks across `direction` (0: measured along x, 1: along y) in metres: broken bonds whose midpoints
+/// lie within `link` of each other (periodic cell width x height) form a crack; each crack counts with the part of the
+/// side that its midpoints occupy, in pieces of `link`; cracks shorter than `shortest` do not count.
 double projected_crack_length(const std::vector<BreakEvent>& events, double width, double height, int direction,
                               double link, double shortest);
 

@@ -1,5 +1,5 @@
-// Tests of the material tests: servo, moduli, what strengths must do when thresholds are scaled, crack lengths. Expected
-// numbers come from isotropic elasticity, from the linearity of the law and from hand-made cracks.
+// Tests of the material tests: servo, moduli, what strengths must do when thresholds are scaled, crack lengths.
+// Expected numbers come from isotropic elasticity, from the linearity of the law and from hand-made cracks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,8 +51,8 @@ TEST(MaterialTests, ModuliAgreeWithIsotropicElasticity) {
   EXPECT_GT(compression.strength, 3.0 * tension.strength);
 }
 
-// The servo keeps the sides free: the lateral stress stays below nu/(25 transits x 20) of the strength plus the waves of
-// the step; 1 % is asked.
+// The servo keeps the sides free: the lateral stress stays below nu/(25 transits x 20) of the strength plus the waves
+// of the step; 1 % is asked.
 TEST(MaterialTests, ServoKeepsTheSidesFree) {
   const geometry::Packing sample = test::jittered_packing(rows, diameter, 6);
   for (const auto kind : {MaterialTestKind::tension, MaterialTestKind::compression}) {
@@ -99,8 +99,8 @@ BreakEvent broken_at(double x, double y) {
   return event;
 }
 
-// A straight crack across the whole cell has the length of the side, half a crack half of it, a flaw nothing; two cracks
-// add up; a crack over the periodic edge is one.
+// A straight crack across the whole cell has the length of the side, half a crack half of it, a flaw nothing; two
+// cracks add up; a crack over the periodic edge is one.
 TEST(CrackLength, HandMadeCracks) {
   constexpr double side = 20e-3, link = 0.5e-3, shortest = 4.5e-3;
   const auto line = [&](double x0, double x1, double y, std::vector<BreakEvent>& to) {

@@ -1,0 +1,69 @@
+// What is here: `perfora calibrate`: bond parameters for wanted constants of the material. What is not: the search
+// (optimize/calibration.h), the chart (report/plot_reachable.cpp).
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/summary_text.h"
+#include "io/error.h"
+#include "optimize/calibration.h"
+#include "report/plot.h"
+
+namespace perfora::app {
+
+namespace {
+
+struct CalibrateFlags {
+  CommonFlags common;
+  std::string file, output;
+  bool resume = false;
+};
+
+int calibrate(const CalibrateFlags& flags) {
+  flags.common.apply();
+  if (flags.resume && flags.common.force)
+    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+  const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
+  ProgressLine progress("calibration", flags.common.quiet);
+  optimize::CalibrationOptions options;
+  options.folder = output_or_default(flags.output, default_name(flags.file, "-calibration"));
+  options.threads = flags.common.thread_count();
+  options.resume = flags.resume;
+  options.force = flags.common.force;
+  options.command_line = command_line();
+  options.progress = progress.callback();
+  const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
+  progress.finish(result.reason);
+  const auto record = optimize::to_json(result);
+  if (result.status != solver::RunStatus::stopped) {
+    report::plot_reachable(options.folder / "result.json", options.folder / "reachable.png");
+    if (std::filesystem::exists(options.folder / "confirmation.h5"))
+      report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
+  }
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record));
+  for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
+  if (result.status == solver::RunStatus::stopped)
+    io::log_warning("stopped; finished tests are kept; go on with the same command and --resume");
+  else
+    io::log_info("written: " + options.folder.string());
+  return exit_code_of(result.status);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<CalibrateFlags>();
+  CLI::App* command =
+      program.add_subcommand("calibrate", "Find bond parameters for a wanted E, nu, tensile and compressive strength");
+  command->add_option("CALIBRATION", flags->file, "Calibration file (TOML)")->required();
+  command->add_option("-o,--output", flags->output, "Folder to write (default: CALIBRATION's name + -calibration)")
+      ->type_name("DIR");
+  command->add_flag("--resume", flags->resume, "Go on with a calibration that was stopped or killed");
+  add_common_flags(*command, flags->common);
+  command->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,389 @@
+// What is here: the search of a calibration around its journal. What is not: keys and record (calibration.cpp).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/journal.h"
+#include "io/progress.h"
+#include "optimize/calibration.h"
+#include "optimize/evaluation.h"
+#include "optimize/study.h"
+#include "optimize/work_folder.h"
+#include "solver/elastic.h"
+#include "solver/mass.h"
+#include "solver/run.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+using solver::MaterialTestKind;
+
+constexpr const char* own_files[] = {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
+                                     "reachable.png", "confirmation.h5", "confirmation.png"};
+/// k_t/k_n: below, shear springs are gone and discs turn freely; above, nu is far below zero.
+constexpr double least_stiffness_ratio = 1e-3, largest_stiffness_ratio = 5.0;
+/// delta_t0/delta_n0: beyond these one of the two thresholds no longer matters (docs/theory.md, "Calibration").
+constexpr double least_shear_ratio = 1.0, largest_shear_ratio = 32.0;
+constexpr double nu_tolerance = 1e-5;
+/// Other zeta_max to try, nearest to the design's first.
+constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};
+/// The chart.
+constexpr double chart_delays[] = {1.0, 1.1, 1.5, 2.0};
+constexpr double chart_shear_ratios[] = {1.0, 2.0, 3.5, 6.0, 12.0, 32.0};
+
+class Search {
+ public:
+  Search(const Calibration& calibration, const CalibrationOptions& options)
+      : calibration_(calibration),
+        options_(options),
+        keys_(calibration.keys),
+        started_(std::chrono::steady_clock::now()) {
+    prepare_work_folder(options.folder, own_files, "calibration", options.force, options.resume);
+    journal_ = std::make_unique<io::Journal>(options.folder / "journal.jsonl");
+    read_journal();
+  }
+
+  CalibrationResult run() {
+    read_samples();
+    fit_elasticity();
+    critical_normal_ = reference_stretch();
+    bool whole = fit_strengths();
+    if (whole && keys_.chart) whole = make_chart();
+    write_design();
+    if (whole) whole = confirm();
+    if (!whole) {
+      result_.status = solver::RunStatus::stopped;
+      result_.reason = "signal";
+    } else if (result_.status == solver::RunStatus::completed) {
+      result_.reason = result_.not_met.empty() ? "all wanted numbers were met" : result_.not_met.front();
+    }
+    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    return std::move(result_);
+  }
+
+ private:
+  void read_journal() {
+    const json head = {{"event", "calibration"},
+                       {"results_version", results_version},
+                       {"design", calibration_.start->schema().to_toml()},
+                       {"replicates", keys_.replicates}};
+    if (journal_->events().empty()) {
+      journal_->append(head.dump());
+      return;
+    }
+    const json first = json::parse(journal_->events().front());
+    for (const char* key : {"event", "results_version", "design", "replicates"})
+      if (first.value(key, json()) != head.at(key))
+        throw io::InputError({(options_.folder / "journal.jsonl").string(), 0, key},
+                             "the calibration of this folder began with another design or other samples", "",
+                             "resume with the files it was started with, or name another folder with -o");
+    for (const std::string& text : journal_->events()) {
+      const json event = json::parse(text);
+      if (event.value("event", "") == "point") known_[event.at("key").get<std::string>()] = event;
+    }
+  }
+
+  void read_samples() {
+    const DesignFile sample = material_sample(*calibration_.start);
+    EvaluateOptions packing;
+    packing.threads = options_.threads;
+    packing.progress = options_.progress;
+    double lengths = 0.0;
+    std::int64_t bonds = 0;
+    for (int r = 0; r < keys_.replicates; ++r) {
+      const PackedDesign packed = pack_design(sample, packing, r);
+      if (!packed.periodic.quality.reached)
+        throw io::InputError(calibration_.start->schema().origin("packing.solid_fraction"),
+                             "the packing was not reached: " + packed.periodic.quality.reason, "",
+                             "lower packing.solid_fraction");
+      mean_diameter_ = mean_diameter_of(sample, packed.periodic);
+      solver::BondNetwork network = solver::make_bond_network(packed.clipped, packed.layout,
+                                                              sample.design().solver.material, {}, 1, mean_diameter_);
+      for (const double l : network.rest_length) lengths += l;
+      bonds += network.size();
+      networks_.push_back({std::move(network), packed.clipped.size(), packed.clipped.width, packed.clipped.height});
+    }
+    mean_bond_length_ = lengths / static_cast<double>(bonds);
+  }
+
+  /// Mean of the samples for k_n = 1, k_t = ratio: E/k_n and nu, two-dimensional.
+  std::pair<double, double> elasticity(double ratio) const {
+    double young = 0.0, poisson = 0.0;
+    for (const Sample& s : networks_) {
+      const solver::ElasticResponse e = solver::elastic_response(s.network, s.discs, s.width, s.height, 1.0, ratio);
+      young += e.moduli.isotropic_young / static_cast<double>(networks_.size());
+      poisson += e.moduli.isotropic_poisson / static_cast<double>(networks_.size());
+    }
+    return {young, poisson};
+  }
+
+  void fit_elasticity() {
+    const solver::MaterialOptions& material = calibration_.start->design().solver.material;
+    double ratio = material.tangential_stiffness / material.normal_stiffness;
+    double poisson = keys_.poisson_ratio, young = keys_.young_modulus;
+    if (keys_.reading == ElasticReading::plane_strain) {
+      young /= 1.0 - keys_.poisson_ratio * keys_.poisson_ratio;
+      poisson /= 1.0 - keys_.poisson_ratio;
+    }
+    if (keys_.poisson_ratio > 0.0) ratio = stiffness_ratio_for(poisson);
+    const auto [unit_young, reached_poisson] = elasticity(ratio);
+    result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit_young : material.normal_stiffness;
+    result_.found.tangential_stiffness = ratio * result_.found.normal_stiffness;
+    young_ = unit_young * result_.found.normal_stiffness;
+    io::log_info(
+        fmt::format("elastic: k_t/k_n = {:.5g}, k_n = {:.5g} N/m give E = {:.5g} Pa, nu = {:.4f} (two-dimensional)",
+                    ratio, result_.found.normal_stiffness, young_, reached_poisson));
+  }
+
+  /// Bisection in log(k_t/k_n) from Voigt's value outwards; nu falls as the ratio grows.
+  double stiffness_ratio_for(double poisson) {
+    double low = least_stiffness_ratio, high = largest_stiffness_ratio;
+    const double largest = elasticity(low).second, least = elasticity(high).second;
+    if (poisson >= largest || poisson <= least) {
+      result_.not_met.push_back(fmt::format(
+          "poisson_ratio: {:.4f} (two-dimensional) is out of reach of these bonds, which give {:.4f} to {:.4f} for "
+          "k_t/k_n from {:.3g} to {:.3g}",
+          poisson, least, largest, high, low));
+      return poisson >= largest ? low : high;
+    }
+    double middle = std::clamp(voigt_stiffness_ratio(poisson, low), low, high);
+    constexpr int most = 60;
+    for (int k = 0; k < most; ++k) {
+      const double nu = elasticity(middle).second;
+      if (std::fabs(nu - poisson) < nu_tolerance) break;
+      (nu > poisson ? low : high) = middle;
+      middle = std::sqrt(low * high);
+    }
+    return middle;
+  }
+
+  /// delta_n0 that all points are tested with: E delta_n0/<l> = wanted tensile strength (an aligned bond of mean
+  /// length), as stated for the reference diameter.
+  double reference_stretch() const {
+    const double factor = solver::threshold_factor(calibration_.start->design().solver.material, mean_diameter_);
+    return rounded(keys_.tensile_strength / young_ * mean_bond_length_ / factor);
+  }
+
+  DesignFile design_with(const BondParameters& p) const {
+    DesignFile design =
+        DesignFile::from_toml(calibration_.start->schema().to_toml(), calibration_.start->path().string());
+    solver::MaterialOptions& material = design.design().solver.material;
+    material.normal_stiffness = p.normal_stiffness;
+    material.tangential_stiffness = p.tangential_stiffness;
+    material.critical_normal_stretch = p.critical_normal_stretch;
+    material.critical_shear_displacement = p.critical_shear_displacement;
+    material.rupture_delay = p.rupture_delay;
+    return design;
+  }
+
+  /// Tests a point, or takes it from the journal. Empty when the work was stopped.
+  const StrengthPoint* test(double shear_ratio, double rupture_delay, bool of_chart) {
+    shear_ratio = rounded(shear_ratio);
+    for (StrengthPoint& known : result_.points)
+      if (known.shear_ratio == shear_ratio && known.rupture_delay == rupture_delay) return &known;
+    BondParameters p = result_.found;
+    p.critical_normal_stretch = critical_normal_;
+    p.critical_shear_displacement = shear_ratio * critical_normal_;
+    p.rupture_delay = rupture_delay;
+    const DesignFile design = design_with(p);
+    const std::string key = fmt::format("{:08x}", io::crc32(design.schema().to_toml()));
+    auto found = known_.find(key);
+    if (found == known_.end()) {
+      const MaterialTests tests = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression});
+      if (tests.status == solver::RunStatus::stopped || solver::stop_requested()) return nullptr;
+      json event = {{"event", "point"}, {"key", key}, {"shear_ratio", shear_ratio}, {"rupture_delay", rupture_delay}};
+      for (const MaterialTestRun& run : tests.runs)
+        event[solver::material_test_name(run.result.kind)].push_back(
+            number(run.result.status == solver::RunStatus::completed ? run.result.strength
+                                                                     : std::numeric_limits<double>::quiet_NaN()));
+      journal_->append(event.dump());
+      found = known_.emplace(key, event).first;
+    }
+    const auto strengths = [&](const char* name) {
+      std::vector<double> values;
+      for (const json& value : found->second.at(name))
+        if (value.is_number()) values.push_back(value.get<double>());
+      return statistic_of(name, values);
+    };
+    StrengthPoint point{shear_ratio, rupture_delay, strengths("tension"), strengths("compression"), of_chart};
+    io::log_info(fmt::format(
+        "zeta_max {:.3g}, delta_t0/delta_n0 {:.4g}: tension {:.4g} kPa, compression {:.4g} kPa, "
+        "ratio {:.3f}",
+        rupture_delay, shear_ratio, 1e-3 * point.tensile.mean, 1e-3 * point.compressive.mean, point.ratio()));
+    result_.points.push_back(std::move(point));
+    return &result_.points.back();
+  }
+
+  MaterialTests run_tests(const DesignFile& design, const std::vector<MaterialTestKind>& kinds) const {
+    MaterialTestsOptions tests;
+    tests.threads = options_.threads;
+    tests.replicates = keys_.replicates;
+    tests.progress = options_.progress;
+    return test_material(design, kinds, tests);
+  }
+
+  /// The point whose ratio of strengths is the wanted one; the nearest where there is none. False: stopped.
+  bool fit_strengths() {
+    const solver::MaterialOptions& material = calibration_.start->design().solver.material;
+    std::vector<double> delays = {material.rupture_delay};
+    if (keys_.vary_rupture_delay && keys_.compressive_strength > 0.0) {
+      for (const double delay : rupture_delays)
+        if (delay != material.rupture_delay) delays.push_back(delay);
+      std::stable_sort(delays.begin() + 1, delays.end(), [&](double a, double b) {
+        return std::fabs(a - material.rupture_delay) < std::fabs(b - material.rupture_delay);
+      });
+    }
+    if (!(keys_.compressive_strength > 0.0)) {
+      const StrengthPoint* only =
+          test(material.critical_shear_displacement / material.critical_normal_stretch, material.rupture_delay, false);
+      return only != nullptr && take(*only);
+    }
+    const double wanted = keys_.compressive_strength / keys_.tensile_strength;
+    StrengthPoint nearest;
+    double smallest = std::numeric_limits<double>::infinity(), least = smallest, largest = 0.0;
+    for (const double delay : delays) {
+      if (!search_ratio(wanted, delay)) return false;
+      for (const StrengthPoint& point : result_.points) {
+        if (point.of_chart || !std::isfinite(point.ratio())) continue;
+        least = std::min(least, point.ratio());
+        largest = std::max(largest, point.ratio());
+        const double miss = std::fabs(std::log(point.ratio() / wanted));
+        if (miss < smallest) {
+          smallest = miss;
+          nearest = point;
+        }
+      }
+      if (smallest < keys_.tolerance) break;
+    }
+    if (smallest == std::numeric_limits<double>::infinity()) {
+      result_.status = solver::RunStatus::failed;
+      result_.reason = "no test gave both strengths";
+      return true;
+    }
+    if (wanted < least || wanted > largest)
+      result_.not_met.push_back(fmt::format(
+          "compressive_strength: a ratio of strengths of {:.3g} is out of reach; {:.3g} to {:.3g} were found for "
+          "delta_t0/delta_n0 from {:.3g} to {:.3g} at zeta_max {}{}; another horizon, yield_exponent or noise shifts "
+          "this range",
+          wanted, least, largest, least_shear_ratio, largest_shear_ratio,
+          delays.size() > 1 ? "1 to 3" : fmt::format("{:.3g}", delays.front()),
+          keys_.vary_rupture_delay ? "" : " (vary_rupture_delay = true tries others)"));
+    return take(nearest);
+  }
+
+  /// Secant with a bracket (Illinois) on log ratio over log delta_t0/delta_n0. Leaves its points in result_. False:
+  /// stopped.
+  bool search_ratio(double wanted, double delay) {
+    double x[2] = {std::log(least_shear_ratio), std::log(largest_shear_ratio)}, f[2];
+    for (int k = 0; k < 2; ++k) {
+      const StrengthPoint* point = test(std::exp(x[k]), delay, false);
+      if (point == nullptr) return false;
+      f[k] = std::log(point->ratio() / wanted);
+    }
+    if (!(f[0] < 0.0 && f[1] > 0.0)) return true;  // no bracket: out of reach at this zeta_max
+    int same_side = 0;
+    for (int k = 2; k < keys_.maxeval; ++k) {
+      double next = (x[0] * f[1] - x[1] * f[0]) / (f[1] - f[0]);
+      constexpr double margin = 0.05;  // of the bracket: keeps a noisy secant away from its ends
+      next = std::clamp(next, x[0] + margin * (x[1] - x[0]), x[1] - margin * (x[1] - x[0]));
+      const StrengthPoint* point = test(std::exp(next), delay, false);
+      if (point == nullptr) return false;
+      const double miss = std::log(point->ratio() / wanted);
+      if (!std::isfinite(miss) || std::fabs(miss) < 0.5 * keys_.tolerance) return true;
+      const int side = miss < 0.0 ? 0 : 1;
+      x[side] = next;
+      f[side] = miss;
+      same_side = side == 0 ? std::max(1, same_side + 1) : std::min(-1, same_side - 1);
+      if (std::abs(same_side) >= 2) f[1 - side] *= 0.5;
+    }
+    return true;
+  }
+
+  /// delta_n0 by proportion: strengths grow with the thresholds as long as strains are small.
+  bool take(const StrengthPoint& point) {
+    result_.found.rupture_delay = point.rupture_delay;
+    result_.found.critical_normal_stretch = rounded(critical_normal_ * keys_.tensile_strength / point.tensile.mean);
+    result_.found.critical_shear_displacement = rounded(point.shear_ratio * result_.found.critical_normal_stretch);
+    return true;
+  }
+
+  bool make_chart() {
+    for (const double delay : chart_delays)
+      for (const double ratio : chart_shear_ratios)
+        if (test(ratio, delay, true) == nullptr) return false;
+    return true;
+  }
+
+  void write_design() const {
+    if (!(result_.found.critical_normal_stretch > 0.0)) return;
+    io::write_file(options_.folder / "material.toml", design_with(result_.found).schema().to_toml());
+    std::string csv = "zeta_max,shear_ratio,tensile_strength,compressive_strength,strength_ratio\n";
+    for (const StrengthPoint& p : result_.points)
+      csv += fmt::format("{:.6g},{:.6g},{:.8g},{:.8g},{:.6g}\n", p.rupture_delay, p.shear_ratio, p.tensile.mean,
+                         p.compressive.mean, p.ratio());
+    io::write_file(options_.folder / "reachable.csv", csv);
+  }
+
+  /// All tests with the parameters found, held against what was wanted. False: stopped.
+  bool confirm() {
+    if (result_.status == solver::RunStatus::failed) return true;
+    const DesignFile design = design_with(result_.found);
+    result_.confirmation = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression,
+                                              MaterialTestKind::shear, MaterialTestKind::oedometric});
+    if (result_.confirmation.status == solver::RunStatus::stopped) return false;
+    write_material_tests(options_.folder / "confirmation.h5", design, result_.confirmation, options_.command_line);
+    const std::string suffix = keys_.reading == ElasticReading::plane_strain ? "_plane_strain" : "";
+    compare("young_modulus", "young_modulus" + suffix, keys_.young_modulus);
+    compare("poisson_ratio", "poisson_ratio" + suffix, keys_.poisson_ratio);
+    compare("tensile_strength", "tensile_strength", keys_.tensile_strength);
+    compare("compressive_strength", "compressive_strength", keys_.compressive_strength);
+    return true;
+  }
+
+  void compare(const std::string& name, const std::string& statistic, double wanted) {
+    if (!(wanted > 0.0)) return;
+    CalibrationTarget target{name, wanted, std::numeric_limits<double>::quiet_NaN(), false};
+    for (const Statistic& s : result_.confirmation.statistics)
+      if (s.name == statistic) target.reached = s.mean;
+    target.met = std::fabs(target.reached / wanted - 1.0) <= keys_.tolerance;
+    const bool told = std::any_of(result_.not_met.begin(), result_.not_met.end(),
+                                  [&](const std::string& text) { return text.starts_with(name); });
+    if (!target.met && !told)
+      result_.not_met.push_back(
+          fmt::format("{}: {:.4g} was reached where {:.4g} was wanted ({:+.1f} %); scatter of the "
+                      "samples: raise calibrate.replicates or test.size",
+                      name, target.reached, wanted, 100.0 * (target.reached / wanted - 1.0)));
+    result_.targets.push_back(std::move(target));
+  }
+
+  struct Sample {
+    solver::BondNetwork network;
+    std::int32_t discs;
+    double width, height;
+  };
+
+  const Calibration& calibration_;
+  const CalibrationOptions& options_;
+  const CalibrationKeys& keys_;
+  std::chrono::steady_clock::time_point started_;
+  std::unique_ptr<io::Journal> journal_;
+  std::map<std::string, json> known_;
+  std::vector<Sample> networks_;
+  double mean_diameter_ = 0.0, mean_bond_length_ = 0.0, young_ = 0.0, critical_normal_ = 0.0;
+  CalibrationResult result_;
+};
+
+}  // namespace
+
+CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options) {
+  CalibrationResult result = Search(calibration, options).run();
+  io::write_file(options.folder / "result.json", to_json(result).dump(2) + "\n");
+  return result;
+}
+
+}  // namespace perfora::optimize

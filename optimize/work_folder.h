@@ -1,0 +1,16 @@
+// What is here: the folder that long work keeps its journal and results in. What is not: what the journal says.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace perfora::optimize {
+
+/// Makes `folder` ready for work that writes `own_files` into it (journal.jsonl among them): removes them with `force`,
+/// keeps them with `resume`, otherwise refuses a folder that holds such work or a file of such a name. `what` names the
+/// work ("study"). Throws io::InputError.
+void prepare_work_folder(const std::filesystem::path& folder, std::span<const char* const> own_files,
+                         const std::string& what, bool force, bool resume);
+
+}  // namespace perfora::optimize

@@ -1,0 +1,124 @@
+// What is here: the chart of a calibration: which ratios of strengths can be reached. What is not: the search
+// (optimize/calibration.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "io/error.h"
+#include "io/journal.h"
+#include "report/canvas.h"
+#include "report/chart.h"
+#include "report/plot.h"
+
+namespace perfora::report {
+namespace {
+
+constexpr double page_width = 1600.0;
+constexpr double page_height = 900.0;
+constexpr double legend_left = 1270.0;
+
+struct Point {
+  double shear_ratio, ratio;
+  bool of_chart;
+};
+using Curves = std::map<double, std::vector<Point>>;  ///< by zeta_max, each by rising shear_ratio
+
+Curves curves_of(const nlohmann::json& result) {
+  Curves curves;
+  for (const auto& p : result.at("points")) {
+    if (!p.at("strength_ratio").is_number()) continue;
+    curves[p.at("rupture_delay").get<double>()].push_back(
+        {p.at("shear_ratio").get<double>(), p.at("strength_ratio").get<double>(), p.at("of_chart").get<bool>()});
+  }
+  for (auto& [delay, points] : curves)
+    std::sort(points.begin(), points.end(),
+              [](const Point& a, const Point& b) { return a.shear_ratio < b.shear_ratio; });
+  return curves;
+}
+
+std::optional<double> target_of(const nlohmann::json& result, const std::string& name) {
+  for (const auto& target : result.at("targets"))
+    if (target.at("name") == name) return target.at("wanted").get<double>();
+  return std::nullopt;
+}
+
+void draw_legend(Canvas& canvas, const Curves& curves, bool with_target) {
+  double y = 170.0;
+  canvas.text(legend_left, y, "zeta_max (rupture delay)", {.size = 18.0, .bold = true});
+  std::size_t k = 0;
+  for (const auto& [delay, points] : curves) {
+    y += 36.0;
+    const Colour colour = palette::series()[k++ % palette::series().size()];
+    canvas.line(legend_left, y - 6.0, legend_left + 40.0, y - 6.0, colour, 3.0);
+    canvas.text(legend_left + 54.0, y, short_number(delay), {.size = 17.0});
+  }
+  y += 44.0;
+  canvas.disc(legend_left + 20.0, y - 6.0, 6.0, palette::paper, palette::ink, 1.6);
+  canvas.text(legend_left + 54.0, y, "tested on the way", {.size = 17.0});
+  if (!with_target) return;
+  y += 36.0;
+  canvas.line(legend_left, y - 6.0, legend_left + 40.0, y - 6.0, palette::green, 2.0, {9.0, 6.0});
+  canvas.text(legend_left + 54.0, y, "wanted, and what was found", {.size = 17.0});
+}
+
+}  // namespace
+
+void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
+                    const PlotOptions& options) {
+  const nlohmann::json result = nlohmann::json::parse(io::read_file(result_file), nullptr, false);
+  if (!result.is_object() || result.value("schema", "") != "perfora.calibrate/1")
+    throw io::InputError({result_file.string(), 0, ""}, "is not the result of a calibration", "",
+                         "give the result.json of `perfora calibrate`");
+  const Curves curves = curves_of(result);
+  const auto tensile = target_of(result, "tensile_strength"), compressive = target_of(result, "compressive_strength");
+  double low = 1e300, high = 0.0, top = 1.0;
+  for (const auto& [delay, points] : curves)
+    for (const Point& p : points) {
+      low = std::min(low, p.shear_ratio);
+      high = std::max(high, p.shear_ratio);
+      top = std::max(top, p.ratio);
+    }
+  if (compressive && tensile) top = std::max(top, *compressive / *tensile);
+  if (!(high > 0.0)) low = 1.0, high = 10.0;
+  Canvas canvas(out, page_width, page_height);
+  canvas.text(44.0, 56.0, options.title.empty() ? "Ratios of strengths that can be reached" : options.title,
+              {.size = 30.0, .bold = true});
+  canvas.text(44.0, 88.0,
+              "Uniaxial compressive over tensile strength of the solid material, against the shear threshold of its "
+              "bonds over their tension threshold",
+              {.size = 17.0, .colour = palette::soft_ink});
+  constexpr double margin = 1.12;
+  Chart chart(canvas, {120.0, 130.0, legend_left - 120.0 - 60.0, page_height - 130.0 - 90.0},
+              {low / margin, high * margin, "delta_t0 / delta_n0", true},
+              {0.0, margin * top, "compressive / tensile strength"});
+  chart.draw_axes();
+  std::size_t k = 0;
+  for (const auto& [delay, points] : curves) {
+    const Colour colour = palette::series()[k++ % palette::series().size()];
+    std::vector<double> x, y;
+    for (const Point& p : points) {
+      x.push_back(p.shear_ratio);
+      y.push_back(p.ratio);
+    }
+    chart.polyline(x, y, colour, 2.6);
+    for (const Point& p : points)
+      canvas.disc(chart.px(p.shear_ratio), chart.py(p.ratio), 6.0, p.of_chart ? colour : palette::paper, colour, 1.8);
+  }
+  if (compressive && tensile) {
+    chart.horizontal(*compressive / *tensile, chart.x_axis().low, chart.x_axis().high, palette::green, 2.0, {9.0, 6.0});
+    const auto& found = result.at("found");
+    if (found.at("critical_normal_stretch").is_number() && found.at("critical_normal_stretch").get<double>() > 0.0) {
+      const double ratio =
+          found.at("critical_shear_displacement").get<double>() / found.at("critical_normal_stretch").get<double>();
+      chart.vertical(ratio, palette::green, 2.0, {9.0, 6.0});
+    }
+  }
+  draw_legend(canvas, curves, compressive && tensile);
+  canvas.write();
+}
+
+}  // namespace perfora::report
