@@ -89,6 +89,7 @@ constexpr Line material_lines[] = {
     {"shear strength", "shear_strength", Unit::stress},
     {"oedometric strength", "oedometric_strength", Unit::stress},
     {"fracture energy (J/m2)", "fracture_energy", Unit::number},
+    {"characteristic length E G / ft^2", "characteristic_length", Unit::length},
 };
 
 constexpr int label_width = 38;

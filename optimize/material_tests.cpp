@@ -92,6 +92,11 @@ std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, i
          return s.value(Kind::compression, &Result::strength) / s.value(Kind::tension, &Result::strength);
        }},
       {"fracture_energy", [](const ByKind& s) { return s.value(Kind::tension, &Result::fracture_energy); }},
+      {"characteristic_length",
+       [&](const ByKind& s) {
+         const double strength = s.value(Kind::tension, &Result::strength);
+         return young(s) * s.value(Kind::tension, &Result::fracture_energy) / (strength * strength);
+       }},
   };
   std::vector<Statistic> statistics;
   for (const auto& [name, value] : list) {

@@ -71,7 +71,7 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
-  for (const std::string command : {"", "pack", "evaluate", "optimize", "check", "show", "plot"}) {
+  for (const std::string command : {"", "pack", "evaluate", "optimize", "test", "calibrate", "check", "show", "plot"}) {
     const Outcome help = run(command + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.error, "") << command;
@@ -246,6 +246,53 @@ TEST_F(CommandLine, AWorkerAnswersLineByLine) {
   EXPECT_EQ(json::parse(second)["status"], "completed");
   EXPECT_GT(json::parse(second)["curve"]["strain_yy"].size(), 2u);
   EXPECT_FALSE(std::getline(lines, rest));
+}
+
+// A small sample: 6 mm of discs of 0.5 mm, horizon 2. The record names what was asked for; file and picture appear.
+TEST_F(CommandLine, TestOfAMaterialGivesRecordFileAndPicture) {
+  const std::string small = " --set test.size=6mm --set material.horizon=2 --set loading.transits=5";
+  const Outcome outcome = run("test d.toml -o t.h5 --json --set test.shear=false --set test.oedometric=false" + small);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  EXPECT_EQ(record.at("schema"), "perfora.test/1");
+  ASSERT_EQ(record.at("tests").size(), 2u);
+  EXPECT_GT(record.at("material").at("compressive_strength").at("mean").get<double>(),
+            record.at("material").at("tensile_strength").at("mean").get<double>());
+  EXPECT_FALSE(record.at("material").contains("shear_strength"));
+  EXPECT_TRUE(fs::exists(folder_ / "t.h5") && fs::exists(folder_ / "t.png"));
+  EXPECT_EQ(run("test d.toml -o t.h5 --quiet" + small).exit_code, 1) << "exists";
+  EXPECT_EQ(json::parse(run("show t.h5 --json").output).at("material"), record.at("material"));
+  EXPECT_EQ(run("plot t.h5 -o again.png").exit_code, 0);
+}
+
+// Killed after its first points and resumed, a calibration ends with the numbers of one that was not; only the first
+// pair of strengths is asked for, coarsely, so that it takes seconds. E and nu are met: they are solved for.
+TEST_F(CommandLine, CalibrationResumesFromItsJournal) {
+  std::ofstream(folder_ / "c.toml") << "[calibrate]\ndesign = \"d.toml\"\nyoung_modulus = \"1 GPa\"\n"
+                                       "poisson_ratio = 0.2\ntensile_strength = \"0.5 MPa\"\n"
+                                       "compressive_strength = \"2 MPa\"\nmaxeval = 4\nreplicates = 1\nchart = false\n"
+                                       "tolerance = 0.2\n";
+  const std::string small = " --set test.size=6mm --set material.horizon=2 --set loading.transits=5 --json";
+  const Outcome whole = run("calibrate c.toml -o whole" + small);
+  ASSERT_EQ(whole.exit_code, 0) << whole.error;
+  const json record = json::parse(whole.output);
+  EXPECT_EQ(record.at("schema"), "perfora.calibrate/1");
+  for (const json& target : record.at("targets"))
+    if (target.at("name") == "young_modulus") EXPECT_TRUE(target.at("met").get<bool>()) << target;
+  EXPECT_TRUE(fs::exists(folder_ / "whole" / "material.toml") && fs::exists(folder_ / "whole" / "reachable.png"));
+  EXPECT_EQ(run("check whole/material.toml").exit_code, 0);
+  EXPECT_EQ(run("calibrate c.toml -o whole" + small).exit_code, 1) << "exists";
+  // Cut the journal after its second point, as a kill there would leave it.
+  fs::create_directory(folder_ / "cut");
+  std::ifstream journal(folder_ / "whole" / "journal.jsonl");
+  std::ofstream shorter(folder_ / "cut" / "journal.jsonl");
+  std::string line;
+  for (int k = 0; k < 3 && std::getline(journal, line); ++k) shorter << line << "\n";
+  shorter.close();
+  const Outcome resumed = run("calibrate c.toml -o cut --resume" + small);
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_EQ(json::parse(resumed.output).at("found"), record.at("found"));
+  EXPECT_EQ(json::parse(resumed.output).at("points"), record.at("points"));
 }
 
 }  // namespace

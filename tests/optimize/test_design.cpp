@@ -19,8 +19,8 @@ const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) 
 
 TEST(DesignFile, HasAllSections) {
   const DesignFile design;
-  const std::vector<std::string> wanted = {"cell",    "layout",   "packing",  "material", "noise",
-                                           "loading", "dynamics", "measures", "output",   "seeds"};
+  const std::vector<std::string> wanted = {"cell",     "layout",   "packing", "material", "noise", "loading",
+                                           "dynamics", "measures", "output",  "test",     "seeds"};
   EXPECT_EQ(design.schema().section_names(), wanted);
 }
 
