@@ -277,8 +277,11 @@ TEST_F(CommandLine, CalibrationResumesFromItsJournal) {
   ASSERT_EQ(whole.exit_code, 0) << whole.error;
   const json record = json::parse(whole.output);
   EXPECT_EQ(record.at("schema"), "perfora.calibrate/1");
-  for (const json& target : record.at("targets"))
-    if (target.at("name") == "young_modulus") EXPECT_TRUE(target.at("met").get<bool>()) << target;
+  for (const json& target : record.at("targets")) {
+    if (target.at("name") == "young_modulus") {
+      EXPECT_TRUE(target.at("met").get<bool>()) << target;
+    }
+  }
   EXPECT_TRUE(fs::exists(folder_ / "whole" / "material.toml") && fs::exists(folder_ / "whole" / "reachable.png"));
   EXPECT_EQ(run("check whole/material.toml").exit_code, 0);
   EXPECT_EQ(run("calibrate c.toml -o whole" + small).exit_code, 1) << "exists";
