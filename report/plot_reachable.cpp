@@ -75,15 +75,19 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
                          "give the result.json of `perfora calibrate`");
   const Curves curves = curves_of(result);
   const auto tensile = target_of(result, "tensile_strength"), compressive = target_of(result, "compressive_strength");
-  double low = 1e300, high = 0.0, top = 1.0;
+  double low = 1e300, high = 0.0, bottom = 1e300, top = 0.0;
   for (const auto& [delay, points] : curves)
     for (const Point& p : points) {
       low = std::min(low, p.shear_ratio);
       high = std::max(high, p.shear_ratio);
+      bottom = std::min(bottom, p.ratio);
       top = std::max(top, p.ratio);
     }
-  if (compressive && tensile) top = std::max(top, *compressive / *tensile);
-  if (!(high > 0.0)) low = 1.0, high = 10.0;
+  if (compressive && tensile) {
+    bottom = std::min(bottom, *compressive / *tensile);
+    top = std::max(top, *compressive / *tensile);
+  }
+  if (!(high > 0.0)) low = 1.0, high = 10.0, bottom = 1.0, top = 10.0;
   Canvas canvas(out, page_width, page_height);
   canvas.text(44.0, 56.0, options.title.empty() ? "Ratios of strengths that can be reached" : options.title,
               {.size = 30.0, .bold = true});
@@ -94,7 +98,7 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
   constexpr double margin = 1.12;
   Chart chart(canvas, {120.0, 130.0, legend_left - 120.0 - 60.0, page_height - 130.0 - 90.0},
               {low / margin, high * margin, "delta_t0 / delta_n0", true},
-              {0.0, margin * top, "compressive / tensile strength"});
+              {bottom / margin, margin * top, "compressive / tensile strength", true});
   chart.draw_axes();
   std::size_t k = 0;
   for (const auto& [delay, points] : curves) {
