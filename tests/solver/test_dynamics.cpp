@@ -213,6 +213,41 @@ TEST(Restart, SnapshotGoesOnWithTheSameBits) {
     }
 }
 
+// The same where the width follows a wanted stress: then H is state, not a function of time. The servo also holds the
+// wanted stress: to 5 % of the axial one in this fast run.
+TEST(Restart, ServoGoesOnWithTheSameBits) {
+  const geometry::Packing packing = test::jittered_packing(14, 0.5e-3, 4);
+  SolverOptions options;
+  const auto make = [&] {
+    SimulationInput input;
+    input.clipped = &packing;
+    input.network = make_bond_network(packing, test::no_holes(packing), options.material, options.noise, 1, 0.5e-3);
+    input.masses = make_masses(packing, input.network, options.material, options.dynamics);
+    input.options = options;
+    input.time_step = options.dynamics.step_factor * input.masses.critical_step;
+    input.cell.start = {packing.width, 0.0, packing.height};
+    input.cell.control = {CellControl::stress, CellControl::fixed, CellControl::rate};
+    input.cell.velocity = {0.0, 0.0, -5.0 * packing.height};
+    input.cell.wanted_stress.xx = 1e4;
+    input.cell.servo_mobility = 1e-4 / input.time_step / 1e6;
+    input.mean_diameter = 0.5e-3;
+    return Simulation(std::move(input));
+  };
+  Simulation straight = make(), copied = make(), resumed = make();
+  constexpr int steps = 3000, cut = 1700;
+  for (int k = 0; k < steps; ++k) {
+    straight.step();
+    if (k < cut) copied.step();
+  }
+  resumed.restore(copied.snapshot());
+  for (int k = cut; k < steps; ++k) resumed.step();
+  same_state(straight, resumed, "servo");
+  EXPECT_EQ(straight.cell().xx, resumed.cell().xx);
+  EXPECT_GT(straight.cell().xx, packing.width);
+  EXPECT_NEAR(straight.stress().xx, 1e4, 0.05 * straight.stress().yy);
+  EXPECT_NEAR(straight.ledger().external_work, straight.ledger().sum(), 0.01 * straight.ledger().external_work);
+}
+
 // Both kernels over a small run: close to rounding while nothing is damaged (the damping switches with the sign of tiny
 // velocities). Damage amplifies differences by 1/(zeta_max - 1), so from then to the first break 1e-4 is asked, and the
 // same bond breaks first.
