@@ -1,12 +1,17 @@
-// What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), or an ensemble of replicates in a
-// folder. What is not: the evaluation (optimize/evaluation.h), statistics (optimize/ensemble.h).
+// What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), an ensemble of replicates in a folder,
+// or the elastic answer alone. What is not: the evaluation (optimize/evaluation.h, optimize/elastic_answer.h), statistics
+// (optimize/ensemble.h).
 #include <fmt/format.h>
+
+#include <array>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/outputs.h"
 #include "app/summary_text.h"
 #include "io/error.h"
+#include "optimize/elastic_answer.h"
 #include "optimize/ensemble.h"
 #include "optimize/evaluation.h"
 
@@ -18,7 +23,7 @@ struct EvaluateFlags {
   CommonFlags common;
   std::string design, output, packing;
   std::string until;
-  bool resume = false;
+  bool resume = false, elastic = false;
   int replicates = 0;
   double wall_time = 0.0;
 };
@@ -101,6 +106,50 @@ int evaluate_one(const EvaluateFlags& flags) {
   return exit_code_of(evaluation.status);
 }
 
+/// --elastic takes none of the flags that shape a run in time.
+void refuse_with_elastic(const EvaluateFlags& flags) {
+  const std::array<std::pair<bool, const char*>, 4> others = {{{!flags.until.empty(), "--until"},
+                                                               {flags.resume, "--resume"},
+                                                               {flags.replicates > 0, "--replicates"},
+                                                               {flags.wall_time > 0.0, "--wall-time"}}};
+  for (const auto& [given, name] : others)
+    if (given)
+      throw io::InputError({"--elastic", 0, ""},
+                           fmt::format("--elastic and {} exclude each other: the elastic answer is found at once, "
+                                       "without a run",
+                                       name),
+                           "", "give only one of them");
+}
+
+int evaluate_elastic(const EvaluateFlags& flags) {
+  refuse_with_elastic(flags);
+  remove_stop_handlers();
+  const optimize::DesignFile design = read_design(flags);
+  const std::vector<std::string> warnings = design.validate();
+  const auto output = output_or_default(flags.output, default_name(flags.design, "-elastic.h5"));
+  if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
+  check_new_output(output, flags.common.force);
+  log_warnings(warnings);
+  ProgressLine progress("packing", flags.common.quiet);
+  const optimize::ElasticAnswer answer = optimize::elastic_answer(design, evaluate_options(flags, progress), 0);
+  progress.finish(fmt::format("{} discs, {}; elastic answer in {} ({} iterations)",
+                              with_thousands(static_cast<double>(answer.packed.summary.discs)),
+                              duration_text(answer.packing_seconds), duration_text(answer.solution_seconds),
+                              answer.response.iterations));
+  const auto record = optimize::to_json(answer);
+  const bool reached = answer.status == solver::RunStatus::completed;
+  if (reached) optimize::write_elastic_file(output, design, answer, record, command_line());
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record));
+  if (reached)
+    io::log_info("written: " + output.string());
+  else
+    io::log_error("there is no elastic answer, nothing was written: " + answer.reason);
+  return exit_code_of(answer.status);
+}
+
 int evaluate_replicates(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
   const std::vector<std::string> warnings = design.validate();
@@ -145,6 +194,8 @@ void add_evaluate(CLI::App& program, int& exit_code) {
       ->type_name("P.h5");
   command->add_option("--until", flags->until, "Engineering strain to run to, as 0.6 or \"60 %\" (loading.until)")
       ->type_name("STRAIN");
+  command->add_flag("--elastic", flags->elastic,
+                    "No run: the moduli of the block and where it yields first, in seconds (file: DESIGN-elastic.h5)");
   command->add_flag("--resume", flags->resume, "Go on with a run or an ensemble that was stopped or killed");
   command
       ->add_option("--replicates", flags->replicates,
@@ -161,6 +212,10 @@ void add_evaluate(CLI::App& program, int& exit_code) {
     flags->common.apply();
     if (flags->resume && flags->common.force)
       throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+    if (flags->elastic) {
+      exit_code = evaluate_elastic(*flags);
+      return;
+    }
     exit_code = flags->replicates > 0 ? evaluate_replicates(*flags) : evaluate_one(*flags);
   });
 }

@@ -69,6 +69,35 @@ constexpr Line run_lines[] = {
     {"critical step / step", "step_margin", Unit::number},
 };
 
+constexpr Line elastic_lines[] = {
+    {"bonds", "bonds", Unit::count},
+    {"Young's modulus, stress along x", "young_x", Unit::stress},
+    {"Young's modulus, stress along y", "young_y", Unit::stress},
+    {"contraction in y, stress along x", "poisson_xy", Unit::number},
+    {"contraction in x, stress along y", "poisson_yx", Unit::number},
+    {"shear modulus", "shear_modulus", Unit::stress},
+    {"modulus along y, width held", "oedometric_modulus", Unit::stress},
+    {"  of it with affine motion", "affine_share", Unit::percent},
+    {"anisotropy", "anisotropy", Unit::percent},
+    {"nearest isotropic: Young's modulus", "isotropic_young", Unit::stress},
+    {"  Poisson's ratio", "isotropic_poisson", Unit::number},
+    {"  read as plane strain: E", "plane_strain_young", Unit::stress},
+    {"  nu", "plane_strain_poisson", Unit::number},
+};
+
+constexpr Line first_yield_lines[] = {
+    {"strain", "first_yield_strain", Unit::percent},
+    {"stress", "first_yield_stress", Unit::stress},
+    {"lateral stress", "first_yield_lateral_stress", Unit::stress},
+    {"first bond yields in", "first_yield_mode", Unit::number},
+    {"bonds within 2 % of its strain", "first_yield_bonds", Unit::count},
+};
+
+constexpr Line solution_lines[] = {
+    {"iterations", "iterations", Unit::count},
+    {"forces left over forces that meet", "residual", Unit::number},
+};
+
 constexpr Line optimize_lines[] = {
     {"score", "score", Unit::number},
     {"target", "target", Unit::stress},
@@ -165,6 +194,8 @@ std::string performance_text(const json& object) {
   std::string text = "Performance\n";
   text += line_text(
       "time", fmt::format("{} on {}", duration_text(number("seconds")), threads_text(found->value("threads", 1))));
+  if (std::isfinite(number("solution_seconds")))
+    text += line_text("  of it for the solution", duration_text(number("solution_seconds")));
   if (std::isfinite(number("steps_per_second")))
     text += line_text("steps per second", fmt::format("{:.4g}", number("steps_per_second")));
   if (std::isfinite(number("ns_per_bond_step")))
@@ -235,6 +266,33 @@ std::string calibrate_text(const json& object) {
   return text;
 }
 
+/// The stiffness as three lines of a matrix.
+std::string stiffness_text(const json& object) {
+  const auto found = object.find("stiffness");
+  if (found == object.end() || !found->is_array()) return {};
+  std::string text = "Stiffness (MPa): xx, yy, xy with engineering shear\n";
+  for (const json& row : *found) {
+    text += " ";
+    for (const json& value : row)
+      text += value.is_number() ? fmt::format(" {:>12.5g}", 1e-6 * value.get<double>()) : fmt::format(" {:>12}", "-");
+    text += "\n";
+  }
+  return text;
+}
+
+std::string first_yield_place_text(const json& object) {
+  const auto place = object.find("first_yield_place");
+  if (place == object.end() || !place->is_array() || place->size() != 2) return {};
+  return line_text("place of the first bond (x, y)", fmt::format("{}, {}", length_text(place->at(0).get<double>()),
+                                                                 length_text(place->at(1).get<double>())));
+}
+
+std::string elastic_text(const json& object) {
+  return lines_text("Elastic answer", object, elastic_lines) + stiffness_text(object) +
+         lines_text("First yield, compression along y at fixed width", object, first_yield_lines) +
+         first_yield_place_text(object) + lines_text("Solution", object, solution_lines);
+}
+
 std::string optimize_text(const json& object) {
   std::string text = lines_text("Search", object, optimize_lines);
   if (const auto best = object.find("best"); best != object.end() && best->is_object()) {
@@ -298,6 +356,7 @@ std::string summary_text(const json& object) {
   if (schema == "perfora.calibrate/1") return text + calibrate_text(object) + performance_text(object);
   if (schema == "perfora.test/1") return text + material_text(object.at("material")) + performance_text(object);
   text += lines_text("Packing", object, pack_lines);
+  if (schema == "perfora.elastic/1") return text + elastic_text(object) + performance_text(object);
   text += lines_text("Curve", object, curve_lines) + plateau_window_text(object);
   text += lines_text("Breakage at the end", object, damage_lines);
   text += lines_text("Run", object, run_lines);
