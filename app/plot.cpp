@@ -1,4 +1,4 @@
-// What is here: `perfora plot`: R.h5, P.h5 or T.h5 -> picture. What is not: drawing (report).
+// What is here: `perfora plot`: R.h5, P.h5, T.h5 or an elastic answer -> picture. What is not: drawing (report).
 #include "report/plot.h"
 
 #include "app/commands.h"
@@ -26,6 +26,8 @@ int plot(const PlotFlags& flags) {
     report::plot_packing(input, output);
   else if (format.starts_with("perfora.test/"))
     report::plot_material_tests(input, output);
+  else if (format.starts_with("perfora.elastic/"))
+    report::plot_elastic(input, output);
   else
     report::plot_run(input, output);
   if (flags.common.json)
@@ -38,8 +40,11 @@ int plot(const PlotFlags& flags) {
 
 void add_plot(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PlotFlags>();
-  CLI::App* command = program.add_subcommand("plot", "Draw a run, a packing or material tests");
-  command->add_option("FILE", flags->input, "Run file R.h5, packing file P.h5 or material tests T.h5")->required();
+  CLI::App* command = program.add_subcommand("plot", "Draw a run, a packing, material tests or an elastic answer");
+  command
+      ->add_option("FILE", flags->input,
+                   "Run file R.h5, packing file P.h5, material tests T.h5 or file of evaluate --elastic")
+      ->required();
   command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: FILE's name + .png)");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });

@@ -77,7 +77,7 @@ constexpr Line elastic_lines[] = {
     {"contraction in x, stress along y", "poisson_yx", Unit::number},
     {"shear modulus", "shear_modulus", Unit::stress},
     {"modulus along y, width held", "oedometric_modulus", Unit::stress},
-    {"  of it with affine motion", "affine_share", Unit::percent},
+    {"  share of the affine (Voigt) bound", "affine_share", Unit::percent},
     {"anisotropy", "anisotropy", Unit::percent},
     {"nearest isotropic: Young's modulus", "isotropic_young", Unit::stress},
     {"  Poisson's ratio", "isotropic_poisson", Unit::number},

@@ -1,4 +1,5 @@
-// What is here: pictures of one run, of one packing and of material tests, 1600 pixels wide (PNG; SVG and PDF by extension).
+// What is here: pictures of one run, one packing, material tests and one elastic answer, 1600 pixels wide (PNG; SVG and
+// PDF by extension).
 // What is not: studies (plot_study.h).
 #pragma once
 
@@ -50,5 +51,11 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
 /// zeta_max, with what was wanted and found. Throws io::InputError for another file.
 void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
                     const PlotOptions& options = {});
+
+/// Elastic answer -> picture: the block coloured by how near each disc is to its first yield when the block yields first
+/// (compression along y at fixed width), the first bonds marked, the moduli and a colour bar with the share of discs.
+void plot_elastic(const std::filesystem::path& elastic_file, const std::filesystem::path& out,
+                  const PlotOptions& options = {});
+void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out, const PlotOptions& options = {});
 
 }  // namespace perfora::report

@@ -1,4 +1,4 @@
-// What is here: reading and checking R.h5 and P.h5. What is not: anything that is computed from them.
+// What is here: reading and checking R.h5, P.h5 and elastic answers. What is not: anything that is computed from them.
 #include "report/run_result.h"
 
 #include <fmt/format.h>
@@ -17,6 +17,7 @@ namespace {
 constexpr const char* run_format = "perfora.run/1";
 constexpr const char* pack_format = "perfora.pack/1";
 constexpr const char* test_format = "perfora.test/1";
+constexpr const char* elastic_format = "perfora.elastic/1";
 
 /// Order of docs/formats.md (HDF5 lists its members by the alphabet).
 constexpr std::array<const char*, 18> history_order = {
@@ -35,7 +36,8 @@ void require_format(const io::Hdf5Reader& file, const std::string& wanted, const
   if (found == wanted) return;
   const std::string remedy = wanted == run_format    ? "give the R.h5 of `perfora evaluate`"
                              : wanted == pack_format ? "give the P.h5 of `perfora pack`"
-                                                     : "give the T.h5 of `perfora test`";
+                             : wanted == test_format ? "give the T.h5 of `perfora test`"
+                                                     : "give the file of `perfora evaluate --elastic`";
   throw io::InputError({file.path().string(), 0, "format"},
                        found.empty() ? "the file has no attribute `format`, so it is not " + what
                                      : "the file is \"" + found + "\", not " + what,
@@ -294,6 +296,32 @@ MaterialResult read_material_tests(const std::filesystem::path& path) {
   result.config = optional_text(file, "/config");
   result.summary = read_summary(file);
   return result;
+}
+
+ElasticResult read_elastic(const std::filesystem::path& path) {
+  const io::Hdf5Reader file(path);
+  require_format(file, elastic_format, "an elastic answer");
+  ElasticResult elastic;
+  elastic.path = path;
+  elastic.provenance = read_provenance(file);
+  elastic.clipped = geometry::read_packing(file, "/clipped");
+  require_packing(file, "/clipped", elastic.clipped);
+  elastic.layout = geometry::read_layout(file, "/layout");
+  elastic.disc_strain = file.doubles("/first_yield/disc_strain");
+  require_size(file, "/first_yield/disc_strain", elastic.disc_strain, elastic.clipped.x.size());
+  for (const double strain : elastic.disc_strain)
+    if (!(strain > 0.0)) refuse(file, "/first_yield/disc_strain", fmt::format("holds {}", strain), "positive strains");
+  auto& bonds = elastic.first_bonds;
+  bonds.x = finite_doubles(file, "/first_yield/bonds/x");
+  bonds.y = finite_doubles(file, "/first_yield/bonds/y");
+  bonds.strain = finite_doubles(file, "/first_yield/bonds/strain");
+  bonds.mode = file.int32s("/first_yield/bonds/mode");
+  require_size(file, "/first_yield/bonds/y", bonds.y, bonds.x.size());
+  require_size(file, "/first_yield/bonds/strain", bonds.strain, bonds.x.size());
+  require_size(file, "/first_yield/bonds/mode", bonds.mode, bonds.x.size());
+  elastic.config = optional_text(file, "/config");
+  elastic.summary = read_summary(file);
+  return elastic;
 }
 
 std::optional<double> summary_number(const nlohmann::json& summary, std::string_view key) {

@@ -1,4 +1,4 @@
-// What is here: R.h5, P.h5 and T.h5 read into plain structs, checked on the way in (docs/formats.md).
+// What is here: R.h5, P.h5, T.h5 and elastic answers read into plain structs, checked on the way in (docs/formats.md).
 // What is not: how such files are written (solver, geometry), pictures, exports.
 #pragma once
 
@@ -112,6 +112,21 @@ struct MaterialResult {
   nlohmann::json summary;
 };
 
+/// Elastic answer (`perfora evaluate --elastic`); n discs.
+struct ElasticResult {
+  std::filesystem::path path;
+  Provenance provenance;
+  geometry::Packing clipped;
+  geometry::PerforationLayout layout;
+  std::vector<double> disc_strain;  ///< strain at which the first bond of a disc yields; infinite where none does
+  struct {
+    std::vector<double> x, y, strain;  ///< m; by rising strain
+    std::vector<std::int32_t> mode;    ///< 0 tension, 1 shear
+  } first_bonds;
+  std::string config;
+  nlohmann::json summary;
+};
+
 /// Throws io::InputError for a file that is missing, not HDF5, of another `format`, or whose columns are unequally long
 /// or not finite.
 RunResult read_run(const std::filesystem::path& path);
@@ -119,6 +134,7 @@ RunResult read_run(const std::filesystem::path& path);
 Frame read_frame(const RunResult& run, std::size_t index);
 PackResult read_pack(const std::filesystem::path& path);
 MaterialResult read_material_tests(const std::filesystem::path& path);
+ElasticResult read_elastic(const std::filesystem::path& path);
 
 /// A number of a summary (also of its objects `summary` and `pack`), std::nullopt where the key is missing or null (not
 /// reached).

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "solver/elastic.h"
+#include "solver/first_yield.h"
 #include "tests/solver/sample_packings.h"
 
 namespace perfora::solver {
@@ -225,6 +226,57 @@ TEST(ElasticAnswer, NoBondsAndTooFewIterations) {
   EXPECT_EQ(r.status, ElasticStatus::not_converged);
   EXPECT_EQ(r.iterations, 2);
   EXPECT_GT(r.residual, options.tolerance);
+}
+
+// Roots in closed form: tension alone, shear alone, alpha = 1 (a + b = 1/s), alpha = 2 (a quadratic); none where nothing
+// grows. Then alpha = 4 for many (a, b): the root is on the yield surface and below it the bond is inside.
+TEST(FirstYield, FactorOfOneBond) {
+  constexpr double rounding = 1e-13;
+  EXPECT_NEAR(yield_factor(250.0, 0.0, 8), 1.0 / 250.0, rounding);
+  EXPECT_NEAR(yield_factor(0.0, 40.0, 8), 1.0 / 40.0, rounding);
+  EXPECT_NEAR(yield_factor(30.0, 10.0, 2), 1.0 / 40.0, rounding);
+  EXPECT_NEAR(yield_factor(-6.0, 10.0, 2), 1.0 / 4.0, rounding);
+  for (const double a : {-8.0, -0.1, 0.3, 20.0})
+    EXPECT_NEAR(yield_factor(a, 3.0, 4), (-a + std::sqrt(a * a + 36.0)) / 18.0, rounding);
+  EXPECT_EQ(yield_factor(-5.0, 0.0, 8), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(yield_factor(0.0, 0.0, 8), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(yield_factor(-10.0, 10.0, 2), std::numeric_limits<double>::infinity());
+  test::Uniform u(9);
+  BondLaw law;
+  law.inverse_critical_normal = law.inverse_critical_shear = 1.0;
+  for (int k = 0; k < 1000; ++k) {
+    const double a = u(-1e4, 1e3), b = u(0.0, 1e3), strength = u(0.3, 2.0);
+    const double s = yield_factor(a / strength, b / strength, law.twice_alpha);
+    EXPECT_NEAR(bond_yield(law, a * s, b * s, strength, 1.0), 0.0, 1e-9);
+    EXPECT_LT(bond_yield(law, a * s * (1.0 - 1e-6), b * s * (1.0 - 1e-6), strength, 1.0), 0.0);
+  }
+}
+
+// The lattice again: under E_yy = -s a bond at 60 degrees gets delta_n = -3/4 l s and |delta_t| = sqrt(3)/4 l s, a level
+// one nothing. With alpha = 2 the root is that of a quadratic; the weakest bond's factor on both thresholds scales it.
+TEST(FirstYield, TriangularLattice) {
+  constexpr std::int32_t n = 8;
+  constexpr double pitch = 0.7e-3, weak = 0.8;
+  BondNetwork network = triangular_lattice(n, pitch);
+  network.strength[7] = weak;  // bonds come in threes: level, 60, 120 degrees
+  const ElasticResponse r = elastic_response(network, n * n, n * pitch, n * pitch * std::sqrt(3.0) / 2.0, k_n, k_t);
+  MaterialOptions material;
+  material.yield_exponent = 2.0;
+  material.threshold_scaling = ThresholdScaling::none;
+  const FirstYield y = first_yield(network, r, make_bond_law(material, 0.5e-3));
+  const double a = -0.75 * pitch / material.critical_normal_stretch,
+               b = std::sqrt(3.0) / 4.0 * pitch / material.critical_shear_displacement;
+  const double strain = (-a + std::sqrt(a * a + 4.0 * b * b)) / (2.0 * b * b);
+  EXPECT_NEAR(y.strain, weak * strain, 1e-9 * strain);
+  EXPECT_NEAR(y.stress, weak * strain * r.stiffness[1][1], 1e-9 * y.stress);
+  EXPECT_NEAR(y.lateral_stress, weak * strain * r.stiffness[0][1], 1e-9 * y.stress);
+  ASSERT_EQ(y.first_bonds.size(), 1u);
+  EXPECT_EQ(y.first_bonds[0].bond, 7);
+  EXPECT_EQ(y.first_bonds[0].mode, BreakMode::shear);
+  for (std::int32_t d = 0; d < n * n; ++d) {
+    const bool on_weak_bond = d == network.i[7] || d == network.j[7];
+    EXPECT_NEAR(y.disc_strain[static_cast<std::size_t>(d)], (on_weak_bond ? weak : 1.0) * strain, 1e-9 * strain);
+  }
 }
 
 }  // namespace
