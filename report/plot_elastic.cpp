@@ -38,8 +38,7 @@ std::vector<double> nearness_of(const ElasticResult& elastic) {
   if (elastic.disc_strain.empty()) return {};
   const double first = *std::min_element(elastic.disc_strain.begin(), elastic.disc_strain.end());
   std::vector<double> nearness;
-  for (const double strain : elastic.disc_strain)
-    nearness.push_back(std::isfinite(strain) ? first / strain : 0.0);
+  for (const double strain : elastic.disc_strain) nearness.push_back(std::isfinite(strain) ? first / strain : 0.0);
   return nearness;
 }
 
@@ -179,9 +178,9 @@ void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out
   double y = draw_facts(canvas, "First yield", yield_facts(elastic), 136.0);
   y = draw_facts(canvas, "Block", modulus_facts(elastic), y + 14.0);
   if (!nearness.empty())
-    draw_colour_bar(canvas, nearness,
-                    {side_panel + 62.0, y + 34.0, page_width - page_margin - side_panel - 62.0,
-                     page_height - (y + 34.0) - 80.0});
+    draw_colour_bar(
+        canvas, nearness,
+        {side_panel + 62.0, y + 34.0, page_width - page_margin - side_panel - 62.0, page_height - (y + 34.0) - 80.0});
   canvas.write();
 }
 

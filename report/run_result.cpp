@@ -1,4 +1,4 @@
-// What is here: reading and checking R.h5, P.h5 and elastic answers. What is not: anything that is computed from them.
+// What is here: reading and checking R.h5, P.h5, T.h5 and elastic answers. What is not: anything that is computed from them.
 #include "report/run_result.h"
 
 #include <fmt/format.h>

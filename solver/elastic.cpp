@@ -105,8 +105,9 @@ Groups make_groups(const BondNetwork& network, std::int32_t discs, const std::ve
   Groups g{std::vector<std::int32_t>(n, none), std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), 0};
   const auto at = [](std::int32_t k) { return static_cast<std::size_t>(k); };
   for (std::size_t root = 0; root < n; ++root) {
-    const bool free = g.group[root] == none && std::none_of(neighbours[root].begin(), neighbours[root].end(),
-                                                            [&](const Neighbour& m) { return g.group[at(m.disc)] != none; });
+    const bool free =
+        g.group[root] == none && std::none_of(neighbours[root].begin(), neighbours[root].end(),
+                                              [&](const Neighbour& m) { return g.group[at(m.disc)] != none; });
     if (!free) continue;
     g.group[root] = g.count;
     for (const Neighbour& m : neighbours[root]) {
@@ -208,8 +209,8 @@ struct Solution {
 
 /// Conjugate gradients for three right-hand sides side by side, which share every product with the matrix. `scale`: the
 /// forces that a residual is compared with, one a column.
-Solution solve(const SparseRows& matrix, const TwoLevels& inverse, const Columns& force, const Eigen::RowVector3d& scale,
-               const ElasticOptions& options) {
+Solution solve(const SparseRows& matrix, const TwoLevels& inverse, const Columns& force,
+               const Eigen::RowVector3d& scale, const ElasticOptions& options) {
   const auto dot = [](const Columns& a, const Columns& b) -> Eigen::Array3d {
     return a.cwiseProduct(b).colwise().sum().transpose();
   };

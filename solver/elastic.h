@@ -12,14 +12,15 @@
 
 namespace perfora::solver {
 
-/// Plane stiffness in Voigt's order xx, yy, xy with the engineering shear gamma = 2 E_xy, Pa: stress = stiffness strain.
+/// Plane stiffness in Voigt's order xx, yy, xy with the engineering shear gamma = 2 E_xy, Pa: stress = stiffness
+/// strain.
 using PlaneStiffness = std::array<std::array<double, 3>, 3>;
 
 /// Load cases: one unit of E_xx, of E_yy, of the engineering shear (E_xy = E_yx = 1/2).
 enum class UnitStrain { xx = 0, yy = 1, xy = 2 };
 
-/// What engineers read from a plane stiffness. "x" and "y" name the direction of a uniaxial stress; the ratio poisson_xy
-/// is the contraction in y for that stress in x. NaN where no stress is carried.
+/// What engineers read from a plane stiffness. "x" and "y" name the direction of a uniaxial stress; the ratio
+/// poisson_xy is the contraction in y for that stress in x. NaN where no stress is carried.
 struct PlaneModuli {
   double young_x = 0.0, young_y = 0.0;        ///< Pa
   double poisson_xy = 0.0, poisson_yx = 0.0;  ///< two-dimensional
@@ -61,8 +62,8 @@ struct ElasticResponse {
 };
 
 /// Solves K u = -f(E) for the three unit strains of the periodic cell with the linearised law of docs/theory.md
-/// ("Elastic answer"): bonds of `network` between `discs` discs, all intact ones with their full stiffness (damage is not
-/// looked at: it weakens tension only, which is not linear), cell `width` x `height` in m, stiffnesses in N/m.
+/// ("Elastic answer"): bonds of `network` between `discs` discs, all intact ones with their full stiffness (damage is
+/// not looked at: it weakens tension only, which is not linear), cell `width` x `height` in m, stiffnesses in N/m.
 /// Conjugate gradients with two levels: blocks of a disc and rigid groups of neighbours. Isolated discs, fragments and
 /// free rotations do no harm. What does not converge is a status. Cost: about 60 products with the matrix; one to two
 /// seconds and 0.4 GB for 36,600 discs with 390,000 bonds. One thread, the same bits each time.
@@ -77,6 +78,7 @@ ElasticResponse elastic_response(const BondNetwork& network, std::int32_t discs,
 struct BondAnswer {
   double delta_n = 0.0, delta_t = 0.0;
 };
-BondAnswer bond_answer(const BondNetwork& network, std::int64_t bond, const ElasticResponse& response, UnitStrain strain);
+BondAnswer bond_answer(const BondNetwork& network, std::int64_t bond, const ElasticResponse& response,
+                       UnitStrain strain);
 
 }  // namespace perfora::solver

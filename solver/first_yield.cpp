@@ -49,7 +49,8 @@ FirstYield first_yield(const BondNetwork& network, const ElasticResponse& respon
     }
     if (s > (1.0 + near_first) * result.strain || s == none) continue;
     result.strain = std::min(result.strain, s);
-    yielding.push_back({b, s, a * s > half_integer_power(shear * s, law.twice_alpha) ? BreakMode::tension : BreakMode::shear});
+    yielding.push_back(
+        {b, s, a * s > half_integer_power(shear * s, law.twice_alpha) ? BreakMode::tension : BreakMode::shear});
   }
   result.stress = response.stiffness[1][1] * result.strain;
   result.lateral_stress = response.stiffness[0][1] * result.strain;

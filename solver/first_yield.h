@@ -11,8 +11,9 @@
 
 namespace perfora::solver {
 
-/// Smallest s > 0 at which phi(zeta = 1) = 0 for displacements that grow with s: the root of a s + (b s)^alpha = 1, with
-/// a = delta_n/(strength delta_n0) and b = |delta_t|/(strength delta_t0) per unit of s. Infinite where there is none.
+/// Smallest s > 0 at which phi(zeta = 1) = 0 for displacements that grow with s: the root of a s + (b s)^alpha = 1,
+/// with a = delta_n/(strength delta_n0) and b = |delta_t|/(strength delta_t0) per unit of s. Infinite where there is
+/// none.
 double yield_factor(double a, double b, int twice_alpha);
 
 /// A bond that yields early.
@@ -24,10 +25,10 @@ struct YieldingBond {
 
 /// First yield as the height shrinks at fixed width, every bond linear until then.
 struct FirstYield {
-  double strain = 0.0;          ///< of the first bond; infinite where no bond yields
-  double stress = 0.0;          ///< vertical stress there, Pa, compression positive; infinite likewise
-  double lateral_stress = 0.0;  ///< horizontal stress there, Pa
-  std::vector<double> disc_strain;         ///< strain at which the first of a disc's bonds yields; infinite: none does
+  double strain = 0.0;                    ///< of the first bond; infinite where no bond yields
+  double stress = 0.0;                    ///< vertical stress there, Pa, compression positive; infinite likewise
+  double lateral_stress = 0.0;            ///< horizontal stress there, Pa
+  std::vector<double> disc_strain;        ///< strain at which the first of a disc's bonds yields; infinite: none does
   std::vector<YieldingBond> first_bonds;  ///< the first bond and all within `near_first` of its strain, in that order
 };
 

@@ -37,9 +37,9 @@ void read_isotropic(const PlaneStiffness& c, PlaneModuli& m) {
   m.isotropic_shear = shear;
   m.isotropic_young = 4.0 * bulk * shear / (bulk + shear);
   m.isotropic_poisson = (bulk - shear) / (bulk + shear);
-  m.anisotropy = norm(c[0][0] - bulk - shear, c[1][1] - bulk - shear, c[0][1] - bulk + shear, c[2][2] - shear, c[0][2],
-                      c[1][2]) /
-                 norm(c[0][0], c[1][1], c[0][1], c[2][2], c[0][2], c[1][2]);
+  m.anisotropy =
+      norm(c[0][0] - bulk - shear, c[1][1] - bulk - shear, c[0][1] - bulk + shear, c[2][2] - shear, c[0][2], c[1][2]) /
+      norm(c[0][0], c[1][1], c[0][1], c[2][2], c[0][2], c[1][2]);
   m.plane_strain_poisson = m.isotropic_poisson / (1.0 + m.isotropic_poisson);
   m.plane_strain_young = m.isotropic_young * (1.0 - m.plane_strain_poisson * m.plane_strain_poisson);
 }

@@ -84,7 +84,8 @@ TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
 TEST_F(CommandLine, UsageErrorsAreOneLineAndExitCodeOne) {
   for (const std::string arguments :
        {"", "pack", "pack d.toml more.toml", "evaluate d.toml --threads many", "evaluate d.toml --until",
-        "evaluate d.toml --resume --force", "plot", "--sead 3", "pack d.toml --seed 1.5"}) {
+        "evaluate d.toml --resume --force", "evaluate d.toml --elastic --until 0.1",
+        "evaluate d.toml --elastic --resume", "evaluate d.toml --elastic --replicates 2", "plot", "--sead 3", "pack d.toml --seed 1.5"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 1) << arguments;
     EXPECT_EQ(outcome.output, "") << arguments;
@@ -131,6 +132,21 @@ TEST_F(CommandLine, EvaluateWritesItsFilesAndPrintsOneObject) {
   EXPECT_THAT(read_text(folder_ / "r.csv"), HasSubstr("stress_yy"));
   EXPECT_EQ(json::parse(run("show r.h5 --json").output), record);
   EXPECT_EQ(run("plot r.h5 -o r.png").exit_code, 0);
+}
+
+TEST_F(CommandLine, ElasticAnswerInsteadOfARun) {
+  const Outcome outcome = run("evaluate d.toml --elastic --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  EXPECT_EQ(record["schema"], "perfora.elastic/1");
+  EXPECT_GT(record["young_y"], 0.0);
+  EXPECT_LT(record["young_y"], record["oedometric_modulus"]);
+  EXPECT_EQ(json::parse(run("show d-elastic.h5 --json").output), record);
+  EXPECT_THAT(run("show d-elastic.h5").output, HasSubstr("First yield"));
+  EXPECT_EQ(run("plot d-elastic.h5 -o e.png").exit_code, 0);
+  EXPECT_GT(fs::file_size(folder_ / "e.png"), 1000u);
+  EXPECT_THAT(run("evaluate d.toml --elastic").error, HasSubstr("--force"));
+  EXPECT_THAT(run("evaluate d.toml --elastic --replicates 2").error, HasSubstr("exclude each other"));
 }
 
 TEST_F(CommandLine, PackingFromAFileIsTheSameEvaluation) {

@@ -1,5 +1,5 @@
-// What is here: the linear elastic answer against closed forms: triangular lattice, Voigt's bound, rotation of the frame,
-// singular networks. What is not: agreement with the time-stepping solver (test_elastic_against_solver.cpp).
+// What is here: the linear elastic answer against closed forms: triangular lattice, Voigt's bound, rotation of the
+// frame, singular networks. What is not: agreement with the time-stepping solver (test_elastic_against_solver.cpp).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,8 +69,9 @@ double twice_work(const PlaneStiffness& c, const std::array<double, 3>& strain) 
   return stress[0] * strain[0] + stress[1] * strain[1] + stress[2] * strain[2];
 }
 
-// Every disc is a centre of symmetry and each direction class is strained alike, so the lattice deforms affinely without
-// rotations and Voigt's sum is exact: with three bonds of length a and area sqrt(3)/2 a^2 a disc, C11 = sqrt(3)/4 (3 k_n
+// Every disc is a centre of symmetry and each direction class is strained alike, so the lattice deforms affinely
+// without rotations and Voigt's sum is exact: with three bonds of length a and area sqrt(3)/2 a^2 a disc, C11 =
+// sqrt(3)/4 (3 k_n
 // + k_t), C12 = sqrt(3)/4 (k_n - k_t), G = sqrt(3)/4 (k_n + k_t); isotropic, so nu2 = C12/C11 and E2 = C11 (1 - nu2^2).
 // Tolerance: rounding of sums of a thousand terms.
 TEST(ElasticAnswer, TriangularLatticeInClosedForm) {
@@ -103,14 +104,16 @@ TEST(ElasticAnswer, TriangularLatticeInClosedForm) {
 TEST(ElasticAnswer, PlaneStrainReading) {
   constexpr double young = 30e9, nu = 0.2;
   const double lambda = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), g = young / (2.0 * (1.0 + nu));
-  const PlaneModuli m = plane_moduli({{{lambda + 2.0 * g, lambda, 0.0}, {lambda, lambda + 2.0 * g, 0.0}, {0.0, 0.0, g}}});
+  const PlaneModuli m =
+      plane_moduli({{{lambda + 2.0 * g, lambda, 0.0}, {lambda, lambda + 2.0 * g, 0.0}, {0.0, 0.0, g}}});
   EXPECT_NEAR(m.plane_strain_young, young, 1e-12 * young);
   EXPECT_NEAR(m.plane_strain_poisson, nu, 1e-12);
   EXPECT_NEAR(m.shear_modulus, g, 1e-12 * young);
   EXPECT_NEAR(m.poisson_xy, nu / (1.0 - nu), 1e-12);
 }
 
-// An orthotropic sheet in closed form: S11 = 1/E_x, S12 = -nu_xy/E_x, so C = [E_x, nu_yx E_x; ., E_y]/(1 - nu_xy nu_yx).
+// An orthotropic sheet in closed form: S11 = 1/E_x, S12 = -nu_xy/E_x, so C = [E_x, nu_yx E_x; ., E_y]/(1 - nu_xy
+// nu_yx).
 TEST(ElasticAnswer, OrthotropicModuli) {
   constexpr double young_x = 4e9, young_y = 1e9, nu_xy = 0.4, nu_yx = nu_xy * young_y / young_x, g = 0.7e9;
   constexpr double share = 1.0 / (1.0 - nu_xy * nu_yx);
@@ -169,8 +172,9 @@ TEST(ElasticAnswer, TurnsWithTheFrame) {
   }
 }
 
-// A cluster that spans no boundary yields to every strain: no stress. What hangs loose beside a spanning network (a disc
-// without bonds, a disc on one bond, a pair, a triangle) carries nothing and changes nothing but the solution's last bits.
+// A cluster that spans no boundary yields to every strain: no stress. What hangs loose beside a spanning network (a
+// disc without bonds, a disc on one bond, a pair, a triangle) carries nothing and changes nothing but the solution's
+// last bits.
 TEST(ElasticAnswer, LooseDiscsAndFragmentsDoNoHarm) {
   const geometry::Packing cluster = test::cluster_packing(8, 0.5e-3, 2);
   const ElasticResponse alone =
@@ -228,8 +232,8 @@ TEST(ElasticAnswer, NoBondsAndTooFewIterations) {
   EXPECT_GT(r.residual, options.tolerance);
 }
 
-// Roots in closed form: tension alone, shear alone, alpha = 1 (a + b = 1/s), alpha = 2 (a quadratic); none where nothing
-// grows. Then alpha = 4 for many (a, b): the root is on the yield surface and below it the bond is inside.
+// Roots in closed form: tension alone, shear alone, alpha = 1 (a + b = 1/s), alpha = 2 (a quadratic); none where
+// nothing grows. Then alpha = 4 for many (a, b): the root is on the yield surface and below it the bond is inside.
 TEST(FirstYield, FactorOfOneBond) {
   constexpr double rounding = 1e-13;
   EXPECT_NEAR(yield_factor(250.0, 0.0, 8), 1.0 / 250.0, rounding);
@@ -252,8 +256,9 @@ TEST(FirstYield, FactorOfOneBond) {
   }
 }
 
-// The lattice again: under E_yy = -s a bond at 60 degrees gets delta_n = -3/4 l s and |delta_t| = sqrt(3)/4 l s, a level
-// one nothing. With alpha = 2 the root is that of a quadratic; the weakest bond's factor on both thresholds scales it.
+// The lattice again: under E_yy = -s a bond at 60 degrees gets delta_n = -3/4 l s and |delta_t| = sqrt(3)/4 l s, a
+// level one nothing. With alpha = 2 the root is that of a quadratic; the weakest bond's factor on both thresholds
+// scales it.
 TEST(FirstYield, TriangularLattice) {
   constexpr std::int32_t n = 8;
   constexpr double pitch = 0.7e-3, weak = 0.8;

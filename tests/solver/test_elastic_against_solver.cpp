@@ -1,5 +1,6 @@
-// What is here: the linear elastic answer against the time-stepping solver: the reference kernel, relaxed to equilibrium
-// at strains of both signs. Two codes that share only the bonds. What is not: closed forms (test_elastic.cpp).
+// What is here: the linear elastic answer against the time-stepping solver: the reference kernel, relaxed to
+// equilibrium at strains of both signs. Two codes that share only the bonds. What is not: closed forms
+// (test_elastic.cpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,9 +42,9 @@ SolverOptions unbreakable() {
 
 /// Equilibrium of the block in a cell deformed by F = 1 + [xx xy; 0 yy].
 struct Equilibrium {
-  std::array<double, 3> stress{};               ///< xx, yy, xy, Pa, tension positive
-  std::vector<double> x, y, angle;              ///< fluctuation x - F X, m; rad
-  double rest = 0.0;                            ///< largest force left over the force of a bond at this strain
+  std::array<double, 3> stress{};   ///< xx, yy, xy, Pa, tension positive
+  std::vector<double> x, y, angle;  ///< fluctuation x - F X, m; rad
+  double rest = 0.0;                ///< largest force left over the force of a bond at this strain
 };
 
 Equilibrium relax(const Block& block, const CellMatrix& strain) {
@@ -140,7 +141,8 @@ void expect_agreement(const Block& block) {
     const auto m = static_cast<std::size_t>(mode);
     const Slope s = slope(block, mode, strain);
     for (std::size_t a = 0; a < 3; ++a)
-      EXPECT_NEAR(s.stress[a], r.stiffness[a][m], tolerance * std::sqrt(r.stiffness[a][a] * r.stiffness[m][m])) << m << a;
+      EXPECT_NEAR(s.stress[a], r.stiffness[a][m], tolerance * std::sqrt(r.stiffness[a][a] * r.stiffness[m][m]))
+          << m << a;
     // The cell of the solver shears as [0 g; 0 0], which is the symmetric shear and a turn by -g/2.
     const double turn = mode == UnitStrain::xy ? -0.5 : 0.0;
     double largest_motion = 0.0, largest_turn = 1.0;
@@ -208,8 +210,8 @@ std::vector<std::int32_t> damaged_bonds(const Block& block, const ElasticRespons
   return damaged;
 }
 
-// The solver finds no damage just below the first yield and the bond that was named just above it. Two per cent: what is
-// of second order is the strain (about 0.2 %) times a factor of slenderness.
+// The solver finds no damage just below the first yield and the bond that was named just above it. Two per cent: what
+// is of second order is the strain (about 0.2 %) times a factor of slenderness.
 TEST(ElasticAgainstSolver, FirstYield) {
   constexpr double margin = 0.02;
   for (const std::uint64_t seed : {22u, 23u}) {
