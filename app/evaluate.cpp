@@ -1,6 +1,6 @@
 // What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), an ensemble of replicates in a folder,
-// or the elastic answer alone. What is not: the evaluation (optimize/evaluation.h, optimize/elastic_answer.h), statistics
-// (optimize/ensemble.h).
+// or the elastic answer alone. What is not: the evaluation (optimize/evaluation.h, optimize/elastic_answer.h),
+// statistics (optimize/ensemble.h).
 #include <fmt/format.h>
 
 #include <array>

@@ -52,8 +52,9 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
 void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
                     const PlotOptions& options = {});
 
-/// Elastic answer -> picture: the block coloured by how near each disc is to its first yield when the block yields first
-/// (compression along y at fixed width), the first bonds marked, the moduli and a colour bar with the share of discs.
+/// Elastic answer -> picture: the block coloured by how near each disc is to its first yield when the block yields
+/// first (compression along y at fixed width), the first bonds marked, the moduli and a colour bar with the share of
+/// discs.
 void plot_elastic(const std::filesystem::path& elastic_file, const std::filesystem::path& out,
                   const PlotOptions& options = {});
 void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out, const PlotOptions& options = {});

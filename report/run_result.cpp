@@ -1,4 +1,5 @@
-// What is here: reading and checking R.h5, P.h5, T.h5 and elastic answers. What is not: anything that is computed from them.
+// What is here: reading and checking R.h5, P.h5, T.h5 and elastic answers. What is not: anything that is computed from
+// them.
 #include "report/run_result.h"
 
 #include <fmt/format.h>
@@ -156,7 +157,8 @@ Frame read_frame_group(const io::Hdf5Reader& file, const std::string& group, con
 std::vector<FrameInfo> read_frame_list(const io::Hdf5Reader& file) {
   std::vector<FrameInfo> frames;
   if (!file.has("/frames")) return frames;
-  for (const std::string& name : file.children("/frames")) frames.push_back(read_frame_info(file, "/frames/" + name, name));
+  for (const std::string& name : file.children("/frames"))
+    frames.push_back(read_frame_info(file, "/frames/" + name, name));
   std::stable_sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.strain < b.strain; });
   return frames;
 }

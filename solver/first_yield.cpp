@@ -32,6 +32,7 @@ double yield_factor(double a, double b, int twice_alpha) {
 
 FirstYield first_yield(const BondNetwork& network, const ElasticResponse& response, const BondLaw& law) {
   constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double largest_strain = 1.0;  // nothing is left of the height; where a block carries nothing, only rounding
   FirstYield result;
   result.disc_strain.assign(response.displacement[0].size() / 3, none);
   std::vector<YieldingBond> yielding;
@@ -43,11 +44,12 @@ FirstYield first_yield(const BondNetwork& network, const ElasticResponse& respon
     const double a = -unit.delta_n * law.inverse_critical_normal / network.strength[id];  // E_yy = -s
     const double shear = std::fabs(unit.delta_t) * law.inverse_critical_shear / network.strength[id];
     const double s = yield_factor(a, shear, law.twice_alpha);
+    if (s > largest_strain) continue;
     for (const std::int32_t disc : {network.i[id], network.j[id]}) {
       double& least = result.disc_strain[static_cast<std::size_t>(disc)];
       least = std::min(least, s);
     }
-    if (s > (1.0 + near_first) * result.strain || s == none) continue;
+    if (s > (1.0 + near_first) * result.strain) continue;
     result.strain = std::min(result.strain, s);
     yielding.push_back(
         {b, s, a * s > half_integer_power(shear * s, law.twice_alpha) ? BreakMode::tension : BreakMode::shear});

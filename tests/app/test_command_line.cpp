@@ -85,7 +85,8 @@ TEST_F(CommandLine, UsageErrorsAreOneLineAndExitCodeOne) {
   for (const std::string arguments :
        {"", "pack", "pack d.toml more.toml", "evaluate d.toml --threads many", "evaluate d.toml --until",
         "evaluate d.toml --resume --force", "evaluate d.toml --elastic --until 0.1",
-        "evaluate d.toml --elastic --resume", "evaluate d.toml --elastic --replicates 2", "plot", "--sead 3", "pack d.toml --seed 1.5"}) {
+        "evaluate d.toml --elastic --resume", "evaluate d.toml --elastic --replicates 2", "plot", "--sead 3",
+        "pack d.toml --seed 1.5"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 1) << arguments;
     EXPECT_EQ(outcome.output, "") << arguments;

@@ -284,5 +284,16 @@ TEST(FirstYield, TriangularLattice) {
   }
 }
 
+// A cluster that spans no boundary is never strained.
+TEST(FirstYield, NothingYieldsWhereNothingIsCarried) {
+  const geometry::Packing cluster = test::cluster_packing(8, 0.5e-3, 2);
+  const BondNetwork network = random_network(cluster);
+  const ElasticResponse r = elastic_response(network, cluster.size(), cluster.width, cluster.height, k_n, k_t);
+  const FirstYield y = first_yield(network, r, make_bond_law(MaterialOptions{}, 0.5e-3));
+  EXPECT_EQ(y.strain, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(y.first_bonds.empty());
+  for (const double strain : y.disc_strain) EXPECT_EQ(strain, std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace perfora::solver
