@@ -66,7 +66,7 @@ struct ElasticResponse {
 /// not looked at: it weakens tension only, which is not linear), cell `width` x `height` in m, stiffnesses in N/m.
 /// Conjugate gradients with two levels: blocks of a disc and rigid groups of neighbours. Isolated discs, fragments and
 /// free rotations do no harm. What does not converge is a status. Cost: about 60 products with the matrix; one to two
-/// seconds and 0.4 GB for 36,600 discs with 390,000 bonds. One thread, the same bits each time.
+/// seconds and 0.5 GB for 36,600 discs with 390,000 bonds. One thread, the same bits each time.
 ElasticResponse elastic_response(const BondNetwork& network, std::int32_t discs, double width, double height,
                                  double normal_stiffness, double tangential_stiffness,
                                  const ElasticOptions& options = {});
