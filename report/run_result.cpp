@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "geometry/packing_file.h"
 #include "io/error.h"
@@ -280,13 +281,13 @@ MaterialResult read_material_tests(const std::filesystem::path& path) {
   result.sample = geometry::read_packing(file, "/sample");
   require_packing(file, "/sample", result.sample);
   for (const std::string& child : file.children("/tests")) {
-    const std::string group = "/tests/" + child;
+    const std::string group = fmt::format("/tests/{}", child);
     const std::size_t dash = child.rfind('-');
     if (dash == std::string::npos || child.find_first_not_of("0123456789", dash + 1) != std::string::npos)
       refuse(file, group, "is not named after a test and a replicate", "as tension-000");
     MaterialTest test;
     test.name = child.substr(0, dash);
-    test.replicate = std::stoi("0" + child.substr(dash + 1, 6));
+    test.replicate = std::atoi(child.substr(dash + 1).c_str());
     test.strain = finite_doubles(file, group + "/curve/strain");
     test.stress = finite_doubles(file, group + "/curve/stress");
     require_size(file, group + "/curve/stress", test.stress, test.strain.size());

@@ -6,29 +6,14 @@
 #include <limits>
 
 namespace perfora::solver {
+namespace {
 
-double yield_factor(double a, double b, int twice_alpha) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  if (!(b > 0.0)) return a > 0.0 ? 1.0 / a : none;
-  const double alpha = 0.5 * twice_alpha;
-  const auto phi = [&](double s) { return a * s + half_integer_power(b * s, twice_alpha) - 1.0; };
-  // phi is convex and -1 at s = 0: one positive root, none only where alpha = 1 and a + b <= 0. From a point beyond it
-  // Newton's method comes down to it.
-  double s = 1.0 / b;
-  if (a < 0.0) {
-    constexpr int most_doublings = 200;  // beyond any strain
-    int k = 0;
-    for (; k < most_doublings && !(phi(s) > 0.0); ++k) s *= 2.0;
-    if (k == most_doublings) return none;
-  }
-  constexpr int most_iterations = 100;  // quadratic convergence; the bound only guards against rounding
-  for (int k = 0; k < most_iterations; ++k) {
-    const double next = s - phi(s) / (a + alpha * half_integer_power(b * s, twice_alpha) / s);
-    if (!(next < s)) break;
-    s = next;
-  }
-  return s;
+/// At the yield surface the two terms of phi add up to 1, so the larger one is beyond one half.
+bool yields_in_tension(const BondLaw& law, double delta_n, double strength) {
+  return delta_n * law.inverse_critical_normal / strength > 0.5;
 }
+
+}  // namespace
 
 FirstYield first_yield(const BondNetwork& network, const ElasticResponse& response, const BondLaw& law) {
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -41,9 +26,7 @@ FirstYield first_yield(const BondNetwork& network, const ElasticResponse& respon
     const auto id = static_cast<std::size_t>(b);
     if (network.state[id] != BondState::intact) continue;
     const BondAnswer unit = bond_answer(network, b, response, UnitStrain::yy);
-    const double a = -unit.delta_n * law.inverse_critical_normal / network.strength[id];  // E_yy = -s
-    const double shear = std::fabs(unit.delta_t) * law.inverse_critical_shear / network.strength[id];
-    const double s = yield_factor(a, shear, law.twice_alpha);
+    const double s = yield_load_factor(law, -unit.delta_n, unit.delta_t, network.strength[id]);  // E_yy = -s
     if (s > largest_strain) continue;
     for (const std::int32_t disc : {network.i[id], network.j[id]}) {
       double& least = result.disc_strain[static_cast<std::size_t>(disc)];
@@ -52,7 +35,7 @@ FirstYield first_yield(const BondNetwork& network, const ElasticResponse& respon
     if (s > (1.0 + near_first) * result.strain) continue;
     result.strain = std::min(result.strain, s);
     yielding.push_back(
-        {b, s, a * s > half_integer_power(shear * s, law.twice_alpha) ? BreakMode::tension : BreakMode::shear});
+        {b, s, yields_in_tension(law, -s * unit.delta_n, network.strength[id]) ? BreakMode::tension : BreakMode::shear});
   }
   result.stress = response.stiffness[1][1] * result.strain;
   result.lateral_stress = response.stiffness[0][1] * result.strain;

@@ -11,11 +11,6 @@
 
 namespace perfora::solver {
 
-/// Smallest s > 0 at which phi(zeta = 1) = 0 for displacements that grow with s: the root of a s + (b s)^alpha = 1,
-/// with a = delta_n/(strength delta_n0) and b = |delta_t|/(strength delta_t0) per unit of s. Infinite where there is
-/// none.
-double yield_factor(double a, double b, int twice_alpha);
-
 /// A bond that yields early.
 struct YieldingBond {
   std::int32_t bond = 0;  ///< its row in the network

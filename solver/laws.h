@@ -82,25 +82,31 @@ inline double updated_damage(const BondLaw& law, double delta_n, double delta_t,
 }
 
 /// Factor s > 0 by which the displacements (m) must be multiplied to reach the first yield phi(1) = 0 of an undamaged
-/// bond: the root of a s + (b s)^alpha = 1; infinite for a bond that compression alone never breaks.
+/// bond: the root of a s + (b s)^alpha = 1 with a = delta_n/(strength delta_n^0), b = |delta_t|/(strength delta_t^0);
+/// infinite for a bond that compression alone never breaks.
 inline double yield_load_factor(const BondLaw& law, double delta_n, double delta_t, double strength) {
+  constexpr double none = std::numeric_limits<double>::infinity();
   const double a = delta_n * law.inverse_critical_normal / strength;
   const double b = std::fabs(delta_t) * law.inverse_critical_shear / strength;
-  const auto excess = [&](double s) { return a * s + half_integer_power(b * s, law.twice_alpha) - 1.0; };
-  // Convex with excess(0) = -1: at most one positive root, bracketed by doubling, then halved.
-  double low = 0.0, high = 1.0 / std::max(std::fabs(a), b);
-  constexpr int most_doublings = 200, halvings = 60;  // to the last bit of a double
-  if (!(high < 1e300)) return high;
-  for (int k = 0; excess(high) < 0.0; ++k) {
-    if (k == most_doublings) return std::numeric_limits<double>::infinity();
-    low = high;
-    high *= 2.0;
+  if (!(b > 0.0)) return a > 0.0 ? 1.0 / a : none;
+  const double alpha = 0.5 * law.twice_alpha;
+  const auto phi = [&](double s) { return a * s + half_integer_power(b * s, law.twice_alpha) - 1.0; };
+  // phi is convex and -1 at s = 0: one positive root, none only where alpha = 1 and a + b <= 0. From a point beyond it
+  // Newton's method comes down to it.
+  double s = a > b ? 1.0 / a : 1.0 / b;
+  if (a < 0.0) {
+    constexpr int most_doublings = 200;  // beyond any strain
+    int k = 0;
+    for (; k < most_doublings && !(phi(s) > 0.0); ++k) s *= 2.0;
+    if (k == most_doublings) return none;
   }
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) < 0.0 ? low : high) = middle;
+  constexpr int most_iterations = 100;  // quadratic convergence; the bound only guards against rounding
+  for (int k = 0; k < most_iterations; ++k) {
+    const double next = s - phi(s) / (a + alpha * half_integer_power(b * s, law.twice_alpha) / s);
+    if (!(next < s)) break;
+    s = next;
   }
-  return 0.5 * (low + high);
+  return s;
 }
 
 /// Share of the normal stiffness that is left: damage always weakens tension; compression only with

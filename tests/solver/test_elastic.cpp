@@ -232,12 +232,21 @@ TEST(ElasticAnswer, NoBondsAndTooFewIterations) {
   EXPECT_GT(r.residual, options.tolerance);
 }
 
+/// yield_load_factor for the terms a and b per unit of load and an exponent.
+double yield_factor(double a, double b, int twice_alpha) {
+  BondLaw law;
+  law.inverse_critical_normal = law.inverse_critical_shear = 1.0;
+  law.twice_alpha = twice_alpha;
+  return yield_load_factor(law, a, b, 1.0);
+}
+
 // Roots in closed form: tension alone, shear alone, alpha = 1 (a + b = 1/s), alpha = 2 (a quadratic); none where
 // nothing grows. Then alpha = 4 for many (a, b): the root is on the yield surface and below it the bond is inside.
 TEST(FirstYield, FactorOfOneBond) {
   constexpr double rounding = 1e-13;
   EXPECT_NEAR(yield_factor(250.0, 0.0, 8), 1.0 / 250.0, rounding);
   EXPECT_NEAR(yield_factor(0.0, 40.0, 8), 1.0 / 40.0, rounding);
+  EXPECT_NEAR(yield_factor(250.0, 1e-15, 8), 1.0 / 250.0, rounding);  // shear that is only rounding
   EXPECT_NEAR(yield_factor(30.0, 10.0, 2), 1.0 / 40.0, rounding);
   EXPECT_NEAR(yield_factor(-6.0, 10.0, 2), 1.0 / 4.0, rounding);
   for (const double a : {-8.0, -0.1, 0.3, 20.0})
