@@ -45,10 +45,10 @@ constexpr Number numbers[] = {
     {"shear_modulus", "G", 1e-9, "GPa"},
     {"oedometric_modulus", "C11", 1e-9, "GPa"},
     {"tensile_strength", "tensile strength", 1e-6, "MPa"},
-    {"compressive_strength", "compressive strength", 1e-6, "MPa"},
+    {"compressive_strength", "compr. strength", 1e-6, "MPa"},
     {"strength_ratio", "compressive / tensile", 1.0, ""},
     {"shear_strength", "shear strength", 1e-6, "MPa"},
-    {"oedometric_strength", "oedometric strength", 1e-6, "MPa"},
+    {"oedometric_strength", "oedom. strength", 1e-6, "MPa"},
     {"fracture_energy", "fracture energy", 1.0, "J/m2"},
 };
 
