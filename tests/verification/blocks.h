@@ -7,6 +7,7 @@
 
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
+#include "solver/elastic.h"
 #include "solver/run.h"
 #include "solver/run_setup.h"
 #include "solver/simulation.h"
@@ -56,6 +57,22 @@ inline geometry::PerforationLayout plain(double width, double height) {
   layout.width = width;
   layout.height = height;
   return layout;
+}
+
+inline solver::BondNetwork bonds(const Block& block, const solver::MaterialOptions& material) {
+  return solver::make_bond_network(block.clipped, block.layout, material, {}, 1, block.mean_diameter);
+}
+
+inline solver::ElasticResponse elastic(const Block& block, const solver::MaterialOptions& material = {}) {
+  return solver::elastic_response(bonds(block, material), block.clipped.size(), block.layout.width, block.layout.height,
+                                  material);
+}
+
+/// Young's modulus for a stress at 45 degrees to the axes, Pa.
+inline double young_on_the_diagonal(const solver::PlaneStiffness& c) {
+  const double determinant = c[0][0] * c[1][1] - c[0][1] * c[0][1];
+  const double s11 = c[1][1] / determinant, s22 = c[0][0] / determinant, s12 = -c[0][1] / determinant;
+  return 4.0 / (s11 + s22 + 2.0 * s12 + 1.0 / c[2][2]);
 }
 
 inline solver::Response crush(const Block& block, const solver::SolverOptions& options, std::uint64_t noise_seed = 1) {
