@@ -1,5 +1,6 @@
 # perfora_add_room(name SOURCES ... PUBLIC ... PRIVATE ...): one static library a room, alias Perfora::name.
-# perfora_add_test(name SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT s]): one GoogleTest program, registered with CTest.
+# perfora_add_test(name SOURCES ... LIBRARIES ... LABELS ... [TIMEOUT s] [SUFFIX text]): one GoogleTest program, registered with CTest.
+# SUFFIX goes behind the names of its tests: for a second program of the same sources.
 function(perfora_options target)
   # -ffp-contract=off: the same bits with and without fused multiply-add hardware. No -ffast-math anywhere.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off -fno-math-errno)
@@ -26,7 +27,7 @@ function(perfora_add_room name)
 endfunction()
 
 function(perfora_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;SUFFIX" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -38,7 +39,7 @@ function(perfora_add_test name)
     target_link_libraries(${name} PRIVATE perfora_openmp_for_tsan)
   endif()
   perfora_label_target(${name} ${ARG_LABELS})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_tests PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}" TEST_LIST ${name}_tests PROPERTIES TIMEOUT ${ARG_TIMEOUT})
   # Waiting threads sleep: tests share their cores, and a spinning thread that waits for one that is not scheduled takes a hundred times as long.
   # Labels in a file of their own: gtest_discover_tests takes its PROPERTIES apart at every semicolon, so two labels would not arrive.
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake "foreach(test IN LISTS ${name}_tests)\n"

@@ -14,6 +14,13 @@
 
 namespace perfora::verification {
 
+/// Compiled into the slow programs: more seeds, larger cells, finer series.
+#ifdef PERFORA_VERIFICATION_THOROUGH
+inline constexpr bool thorough = true;
+#else
+inline constexpr bool thorough = false;
+#endif
+
 /// Folder for docs/data/verification, from the environment; empty: nothing is written.
 inline std::filesystem::path data_folder() {
   const char* folder = std::getenv("PERFORA_VERIFICATION_DATA");
@@ -61,6 +68,15 @@ inline void expect_between(const std::string& what, double measured, double low,
   record(what, measured, short_text(low) + " to " + short_text(high), holds);
   EXPECT_TRUE(holds) << what << ": " << measured << ", expected " << low << " to " << high;
 }
+
+/// |measured| <= limit of a check that is known not to hold (docs/verification.md says why): recorded as it is. A test
+/// that asked in vain shows as skipped, with this sentence, so that it stays in sight.
+inline bool holds_so_far(const std::string& what, double measured, double limit) {
+  const bool holds = std::fabs(measured) <= limit;
+  record(what, measured, "at most " + short_text(limit), holds);
+  return holds;
+}
+inline constexpr const char* known_not_to_hold = "does not hold: see docs/verification.md, \"What does not hold\"";
 
 /// A table of numbers for a picture: DATA/name.csv, one header line. Nothing without PERFORA_VERIFICATION_DATA.
 inline void write_table(const std::string& name, const std::vector<std::string>& columns,
