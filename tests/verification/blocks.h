@@ -34,8 +34,8 @@ inline Block make_block(const geometry::PerforationLayout& layout, std::uint64_t
   Block block;
   block.layout = layout;
   block.mean_diameter = diameter;
-  block.clipped =
-      geometry::clip_packing(geometry::make_packing(options, layout.width, layout.height, seed, 1), layout, options.clip);
+  block.clipped = geometry::clip_packing(geometry::make_packing(options, layout.width, layout.height, seed, 1), layout,
+                                         options.clip);
   return block;
 }
 

@@ -81,12 +81,13 @@ void panel(Canvas& canvas, int half, const std::string& title, const Axis& x, co
 
 void draw_contacts(const std::filesystem::path& data, const std::filesystem::path& picture) {
   Canvas canvas(picture, page_width, page_height);
-  const auto e = columns_of(data / "restitution.csv"), roll = columns_of(data / "rolling.csv");
+  const auto e = columns_of(data / "restitution.csv"), roll = columns_of(data / "rolling.csv"),
+             closed = columns_of(data / "restitution_closed.csv");
   panel(canvas, 0, "Two discs that collide", {0.0, 1.0, "viscous_rate", false}, {0.0, 1.0, "restitution", false},
-        {{e[0], e[2], "closed form", palette::soft_ink, Style::line},
+        {{closed[0], closed[1], "closed form", palette::soft_ink, Style::line},
          {e[0], e[1], "measured", palette::blue, Style::points}});
-  panel(canvas, 1, "A disc that slides, spins up and rolls",
-        {0.0, 1.5, "time over the time of slipping", false}, {0.0, 1.05, "over the first speed", false},
+  panel(canvas, 1, "A disc that slides, spins up and rolls", {0.0, 1.5, "time over the time of slipping", false},
+        {0.0, 1.05, "over the first speed", false},
         {{roll[0], roll[1], "speed", palette::blue, Style::line},
          {roll[0], roll[2], "spin times radius", palette::vermilion, Style::line},
          {{0.0, 1.5}, {2.0 / 3.0, 2.0 / 3.0}, "two thirds", palette::soft_ink, Style::dashes}},
@@ -103,7 +104,7 @@ void draw_holes(const std::filesystem::path& data, const std::filesystem::path& 
   const auto square = columns_of(data / "holes_square.csv"), staggered = columns_of(data / "holes_staggered.csv"),
              edge = columns_of(data / "hole_edge.csv");
   panel(canvas, 0, "Sheets with holes: Young's modulus", {0.0, 0.35, "r_H/T", false},
-        {0.4, 0.7, "over the solid's", false},
+        {0.4, 0.85, "over the solid's", false},
         {level(square[3][0], "square array, along the pitch: Slot", palette::blue),
          {square[0], square[1], "discs, square cell", palette::blue, Style::points},
          {staggered[0], staggered[2], "discs, staggered cell, at 45 degrees", palette::green, Style::points},

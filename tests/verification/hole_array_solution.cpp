@@ -1,6 +1,6 @@
-// What is here: see hole_array_solution.h. Kolosov's potentials (Muskhelishvili, "Some basic problems of the mathematical
-// theory of elasticity", 1953): 2 mu (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi';
-// syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'); force on an arc ~ phi + z conj(phi') + conj(psi).
+// What is here: see hole_array_solution.h. Kolosov's potentials (Muskhelishvili, "Some basic problems of the
+// mathematical theory of elasticity", 1953): 2 mu (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re
+// phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'); force on an arc ~ phi + z conj(phi') + conj(psi).
 #include "tests/verification/hole_array_solution.h"
 
 #include <Eigen/Dense>
@@ -94,9 +94,9 @@ HoleArray::Solution HoleArray::solve(double strain_xx, double strain_yy, double 
                   top = field_of(is_phi, unit, power, {t, 0.5}, kappa),
                   bottom = field_of(is_phi, unit, power, {t, -0.5}, kappa);
       const Complex across = right.displacement - left.displacement, up = top.displacement - bottom.displacement;
-      for (const double value : {across.real(), across.imag(), up.real(), up.imag(), right.stress.xx - left.stress.xx,
-                                 right.stress.xy - left.stress.xy, top.stress.yy - bottom.stress.yy,
-                                 top.stress.xy - bottom.stress.xy})
+      for (const double value :
+           {across.real(), across.imag(), up.real(), up.imag(), right.stress.xx - left.stress.xx,
+            right.stress.xy - left.stress.xy, top.stress.yy - bottom.stress.yy, top.stress.xy - bottom.stress.xy})
         a(row++, column) = value;
     }
     for (int k = 0; k < rim_points; ++k) {

@@ -1,5 +1,6 @@
-// What is here: plane elasticity of an endless sheet with a square array of circular holes, solved by complex potentials
-// and least squares on the cell's edge: the continuum's answer to stand beside published numbers. What is not: discs.
+// What is here: plane elasticity of an endless sheet with a square array of circular holes, solved by complex
+// potentials and least squares on the cell's edge: the continuum's answer to stand beside published numbers. What is
+// not: discs.
 #pragma once
 
 #include <complex>
@@ -18,11 +19,11 @@ class HoleArray {
   /// `order`: highest power of the Laurent series; 41 gives 6 digits for radius 0.25 (checked by doubling).
   HoleArray(double radius, double poisson, int order = 41);
 
-  double young() const { return young_; }                   ///< along the pitch
-  double young_diagonal() const { return young_diagonal_; } ///< at 45 degrees
-  double poisson() const { return poisson_; }               ///< contraction for stress along the pitch
-  double shear() const { return shear_; }                   ///< shear stress over engineering shear, axes along the pitch
-  double residual() const { return residual_; }             ///< largest least-squares residual of the three cases
+  double young() const { return young_; }                    ///< along the pitch
+  double young_diagonal() const { return young_diagonal_; }  ///< at 45 degrees
+  double poisson() const { return poisson_; }                ///< contraction for stress along the pitch
+  double shear() const { return shear_; }        ///< shear stress over engineering shear, axes along the pitch
+  double residual() const { return residual_; }  ///< largest least-squares residual of the three cases
 
   /// Local stress at (x, y) from the middle of the hole, under a mean stress of 1 along y and none else.
   PlaneStress under_stress_along_y(double x, double y) const;

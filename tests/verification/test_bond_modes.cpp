@@ -1,5 +1,5 @@
-// What is here: the mode of a single bond that costs nothing, and that a triangulated net has no such mode. What is not:
-// the bond law point by point (tests/solver/test_laws.cpp).
+// What is here: the mode of a single bond that costs nothing, and that a triangulated net has no such mode. What is
+// not: the bond law point by point (tests/solver/test_laws.cpp).
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -48,8 +48,8 @@ TEST(BondModes, OppositeTurnsOfOneBondAreFree) {
     turn(s, 0, angle);
     turn(s, 1, -angle);
     s.refresh_records();
-    expect_at_most("opposite turns by " + short_text(angle) + ": U/(k_t l^2)",
-                   s.ledger().elastic_bonds / (kt * l * l), 1e-28);
+    expect_at_most("opposite turns by " + short_text(angle) + ": U/(k_t l^2)", s.ledger().elastic_bonds / (kt * l * l),
+                   1e-28);
     turn(s, 1, angle);
     s.refresh_records();
     const double shear = l * std::sin(angle);
@@ -58,7 +58,8 @@ TEST(BondModes, OppositeTurnsOfOneBondAreFree) {
   }
 }
 
-// The same two turns in a net: every other bond of both discs is sheared by l phi/2 (small angle: phi^2/12 = 1e-7 of it).
+// The same two turns in a net: every other bond of both discs is sheared by l phi/2 (small angle: phi^2/12 = 1e-7 of
+// it).
 TEST(BondModes, OppositeTurnsInANetCost) {
   double worst = 0.0, least = 1e300;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -37,9 +37,9 @@ Carried carry(const CarriedPair& pair) {
   c.x0 = apart * std::cos(pair.angle);
   c.y0 = apart * std::sin(pair.angle);
   c.angle0 = pair.angle;
-  solver::Simulation s = few_discs({{1e-3, 1e-3, radius, heavy, 0.0, 0.0, 0.0, 0.0},
-                                    {1e-3 + c.x0, 1e-3 + c.y0, radius, heavy, 0.0, 0.0, 0.0, 0.0}},
-                                   cell, contact_options(friction, 0.0), dt);
+  solver::Simulation s = few_discs(
+      {{1e-3, 1e-3, radius, heavy, 0.0, 0.0, 0.0, 0.0}, {1e-3 + c.x0, 1e-3 + c.y0, radius, heavy, 0.0, 0.0, 0.0, 0.0}},
+      cell, contact_options(friction, 0.0), dt);
   while (s.time() < strain) s.step();
   solver::NearPairs pairs = s.near_pairs();
   c.shear = pairs.find(0, 1)->history.shear;
@@ -99,8 +99,8 @@ std::pair<double, double> angular_momentum(const solver::Simulation& s) {
   return {sum, magnitude};
 }
 
-// Pairs of any radii, overlap, spins and friction: contact forces with levers |r| R_i/(R_i + R_j) leave angular momentum
-// as it is. 1e-11 of the sum of magnitudes: rounding of some thousand steps.
+// Pairs of any radii, overlap, spins and friction: contact forces with levers |r| R_i/(R_i + R_j) leave angular
+// momentum as it is. 1e-11 of the sum of magnitudes: rounding of some thousand steps.
 TEST(TouchingPair, KeepsItsAngularMomentum) {
   double worst = 0.0;
   constexpr int seeds = 200;
@@ -113,11 +113,11 @@ TEST(TouchingPair, KeepsItsAngularMomentum) {
     const double m1 = density * r1 * r1, m2 = density * r2 * r2;
     const double speed = 5.0;  // m/s: comparable with what the overlap sets free
     const double x = 0.5 * size + 0.5e-3 * u(-1.0, 1.0), y = 0.5 * size + 0.5e-3 * u(-1.0, 1.0);
-    solver::Simulation s = few_discs(
-        {{x, y, r1, m1, 0.0, speed * u(-1.0, 1.0), speed * u(-1.0, 1.0), speed / r1 * u(-1.0, 1.0)},
-         {x + apart * std::cos(angle), y + apart * std::sin(angle), r2, m2, 0.0, speed * u(-1.0, 1.0),
-          speed * u(-1.0, 1.0), speed / r2 * u(-1.0, 1.0)}},
-        fixed_cell(size, size), contact_options(u(0.1, 1.0), u(0.0, 0.9)), 2e-9);
+    solver::Simulation s =
+        few_discs({{x, y, r1, m1, 0.0, speed * u(-1.0, 1.0), speed * u(-1.0, 1.0), speed / r1 * u(-1.0, 1.0)},
+                   {x + apart * std::cos(angle), y + apart * std::sin(angle), r2, m2, 0.0, speed * u(-1.0, 1.0),
+                    speed * u(-1.0, 1.0), speed / r2 * u(-1.0, 1.0)}},
+                  fixed_cell(size, size), contact_options(u(0.1, 1.0), u(0.0, 0.9)), 2e-9);
     s.step();
     const auto [before, magnitude] = angular_momentum(s);
     const double spin = s.discs().omega[0];

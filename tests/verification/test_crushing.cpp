@@ -1,5 +1,5 @@
-// What is here: whole crushing runs of a small perforated cell: the ledger, and that the first peak does not hang on step,
-// rate or mass scaling. What is not: closed forms of two discs (the other files of this folder).
+// What is here: whole crushing runs of a small perforated cell: the ledger, and that the first peak does not hang on
+// step, rate or mass scaling. What is not: closed forms of two discs (the other files of this folder).
 #include <map>
 #include <ostream>
 #include <string>
@@ -19,8 +19,8 @@ Block perforated(double pitch, int rows, std::uint64_t seed) {
 
 class Ledger : public ::testing::TestWithParam<std::uint64_t> {};
 
-// 60 % strain through peak, rubble and re-contact: |external work - sum of all parts| stays below 0.5 % of the work: half
-// of the 1 % that is commonly asked of an explicit scheme, as every part is summed from its own force.
+// 60 % strain through peak, rubble and re-contact: |external work - sum of all parts| stays below 0.5 % of the work:
+// half of the 1 % that is commonly asked of an explicit scheme, as every part is summed from its own force.
 TEST_P(Ledger, ClosesOverCrushing) {
   solver::SolverOptions options;
   options.loading.until = 0.60;
@@ -42,13 +42,11 @@ void PrintTo(const PeakCase& c, std::ostream* out) {
 
 class FirstPeak : public ::testing::TestWithParam<PeakCase> {
  protected:
-  static std::string at() {
-    return ", " + ::testing::PrintToString(GetParam());
-  }
+  static std::string at() { return ", " + ::testing::PrintToString(GetParam()); }
   /// Options for a run that ends behind the first peak of Table 1's cell (at 0.6 to 1.0 %).
   static solver::SolverOptions to_the_peak() {
     solver::SolverOptions options;
-    options.loading.until = 0.016;
+    options.loading.until = 0.025;
     options.output.history_interval = 1e-4;
     return options;
   }
@@ -84,7 +82,7 @@ TEST_P(FirstPeak, DoesNotHangOnMassScaling) {
     GTEST_SKIP() << known_not_to_hold;
 }
 INSTANTIATE_TEST_SUITE_P(, FirstPeak,
-                         ::testing::ValuesIn(thorough ? std::vector<PeakCase>{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}}
+                         ::testing::ValuesIn(thorough ? std::vector<PeakCase>{{1, 1}, {1, 2}, {1, 3}, {2, 1}}
                                                       : std::vector<PeakCase>{{1, 1}}));
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What is here: elastic constants of plain packings in all three modes against Voigt's, and their convergence; the
-// solver's own quasi-static answer against the linear one (solver/elastic.h). What is not: holes (test_hole_arrays.cpp).
+// solver's own quasi-static answer against the linear one (solver/elastic.h). What is not: holes
+// (test_hole_arrays.cpp).
 #include <algorithm>
 #include <cmath>
 
@@ -30,8 +31,8 @@ TEST(ElasticConstants, AffineOnesAreVoigts) {
   expect_close("affine C66 over S (k_n + k_t)/8, without turns", c[2][2] / (s * (kn + kt)), 1.0, 0.03);
 }
 
-// Relaxed constants lie below Voigt's (they minimise the energy that Voigt's evaluates at one field), approach them with
-// H, and are isotropic: C11 = C22 and C66 = (C11 - C12)/2 within 3 %. One sample of 50 <d>.
+// Relaxed constants lie below Voigt's (they minimise the energy that Voigt's evaluates at one field), approach them
+// with H, and are isotropic: C11 = C22 and C66 = (C11 - C12)/2 within 3 %. One sample of 50 <d>.
 TEST(ElasticConstants, BelowVoigtAndIsotropic) {
   const Block block = make_block(plain(50.0 * table1_diameter, 50.0 * table1_diameter), 1);
   double previous = 0.0;
@@ -66,8 +67,8 @@ TEST(ElasticConstants, DoNotHangOnTheSampleSize) {
     double sum = 0.0, square = 0.0;
     constexpr int seeds = 3;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const solver::ElasticResponse response = elastic(
-          make_block(plain(size * table1_diameter, size * table1_diameter), static_cast<std::uint64_t>(seed)));
+      const solver::ElasticResponse response =
+          elastic(make_block(plain(size * table1_diameter, size * table1_diameter), static_cast<std::uint64_t>(seed)));
       const double share = response.stiffness[0][0] / response.affine_stiffness[0][0];
       sum += share / seeds;
       square += share * share / seeds;
@@ -80,8 +81,8 @@ TEST(ElasticConstants, DoNotHangOnTheSampleSize) {
   write_table("sample_size", {"size", "c11_over_voigt", "scatter"}, table);
 }
 
-/// The block strained at once (positions with the cell, bonds as they were) and held until Cundall damping has brought it
-/// to rest: stress, tension positive.
+/// The block strained at once (positions with the cell, bonds as they were) and held until Cundall damping has brought
+/// it to rest: stress, tension positive.
 solver::Virial stress_after_hold(const Block& block, const solver::CellMatrix& strained, int steps) {
   solver::SolverOptions options;
   options.material.critical_normal_stretch = options.material.critical_shear_displacement = 1.0;
@@ -105,8 +106,8 @@ solver::Virial stress_after_hold(const Block& block, const solver::CellMatrix& s
   return {-v.xx, -v.xy, -v.yx, -v.yy};
 }
 
-// The time stepping at rest against the linear solution, which shares no code with it. At a strain of 1e-6 what is not linear is some
-// 1e-6 of the stress; what is left to swing after 6,000 damped steps is below 1e-5. 1e-4 is asked.
+// The time stepping at rest against the linear solution, which shares no code with it. At a strain of 1e-6 what is not
+// linear is some 1e-6 of the stress; what is left to swing after 6,000 damped steps is below 1e-5. 1e-4 is asked.
 TEST(ElasticConstants, TheStepComesToRestAtTheSameStress) {
   const Block block = make_block(plain(30.0 * table1_diameter, 30.0 * table1_diameter), 2);
   const solver::PlaneStiffness c = elastic(block).stiffness;

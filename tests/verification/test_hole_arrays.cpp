@@ -44,12 +44,13 @@ TEST(HoleArrayContinuum, PublishedSquareArray) {
   }
 }
 
-// Cherkaev, Lurie and Milton (Proc. R. Soc. Lond. A 438, 1992, 519): with free holes E*/E does not depend on nu, nor does
-// (nu* - nu E*/E). Convergence: a higher order of the series changes nothing at 1e-6.
+// Cherkaev, Lurie and Milton (Proc. R. Soc. Lond. A 438, 1992, 519): with free holes E*/E does not depend on nu, nor
+// does (nu* - nu E*/E). Convergence: a higher order of the series changes nothing at 1e-6.
 TEST(HoleArrayContinuum, DoesNotDependOnPoissonsRatio) {
   const HoleArray none(0.25, 0.0), some(0.25, 0.185), more(0.25, 0.185, 61);
   expect_close("E* at nu = 0.185 over nu = 0", some.young() / none.young(), 1.0, 1e-5);
-  expect_close("E* on the diagonal at nu = 0.185 over nu = 0", some.young_diagonal() / none.young_diagonal(), 1.0, 1e-5);
+  expect_close("E* on the diagonal at nu = 0.185 over nu = 0", some.young_diagonal() / none.young_diagonal(), 1.0,
+               1e-5);
   expect_close("nu* - nu E*/E at nu = 0.185", some.poisson() - 0.185 * some.young(), none.poisson(), 1e-5);
   expect_close("E* of order 61 over order 41", more.young() / some.young(), 1.0, 1e-6);
 }
@@ -96,7 +97,8 @@ void extrapolate(const std::string& name, const std::vector<int>& counts, int se
   along.resize(counts.size());
   diagonal.resize(counts.size());
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Block solid = make_block(plain(side * table1_diameter, side * table1_diameter), static_cast<std::uint64_t>(seed));
+    const Block solid =
+        make_block(plain(side * table1_diameter, side * table1_diameter), static_cast<std::uint64_t>(seed));
     const solver::ElasticResponse response = elastic(solid);
     for (std::size_t k = 0; k < counts.size(); ++k) {
       const Ratio r = ratio_of(solid.clipped, response, counts[k], staggered);
@@ -120,9 +122,9 @@ void extrapolate(const std::string& name, const std::vector<int>& counts, int se
   write_table("holes_" + name, {"resolution", "along", "diagonal", "expected_along", "expected_diagonal"}, table);
 }
 
-// Packings with the same array, at r_H/T from 1/3 on: within 5 % of the continuum when extrapolated linearly. The edge of a
-// hole has lost bonds over a depth of r_H, which is a soft skin: its share of a wall goes as r_H/T. 5 % is what a skin of
-// second order ((1/6)^2 of about one) and the scatter of a sample (1 to 2 %) leave.
+// Packings with the same array, at r_H/T from 1/3 on: within 5 % of the continuum when extrapolated linearly. The edge
+// of a hole has lost bonds over a depth of r_H, which is a soft skin: its share of a wall goes as r_H/T. 5 % is what a
+// skin of second order ((1/6)^2 of about one) and the scatter of a sample (1 to 2 %) leave.
 TEST(HoleArrayDiscs, SquareCell) {
   extrapolate("square", thorough ? std::vector{6, 4, 3, 2} : std::vector{6, 4, 3}, thorough ? 3 : 1, false);
 }

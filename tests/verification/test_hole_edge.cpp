@@ -26,8 +26,8 @@ TEST(HoleEdge, ContinuumMeetsKirsch) {
   const double radius = 0.02;
   const HoleArray sheet(radius, 0.185);
   for (const double r : {1.0, 1.25, 1.5, 2.0, 3.0})
-    expect_close("stress beside a lone hole at r/R = " + short_text(r),
-                 sheet.under_stress_along_y(r * radius, 0.0).yy, kirsch(r), 0.003 * kirsch(r));
+    expect_close("stress beside a lone hole at r/R = " + short_text(r), sheet.under_stress_along_y(r * radius, 0.0).yy,
+                 kirsch(r), 0.003 * kirsch(r));
 }
 
 /// Love and Weber's stress of every disc times its area, component along the load, for a mean stress of 1 along `axis`
@@ -84,10 +84,10 @@ void add_to_bins(const Block& block, const HoleArray* sheet, std::vector<Bin>& s
   }
 }
 
-// Stress in each ring over that of the same rings of the packing without its hole (which takes out how many discs a ring
-// happens to hold), against the continuum's at the same discs (periodic cell; Kirsch's lone hole beside it). A ring holds
-// some 60 discs, and the stress of a disc scatters by a quarter: 3 %. The skin of softer discs, a bond radius deep, makes
-// the hole look wider, by a few per cent of R. 5 % is asked.
+// Stress in each ring over that of the same rings of the packing without its hole (which takes out how many discs a
+// ring happens to hold), against the continuum's at the same discs (periodic cell; Kirsch's lone hole beside it). A
+// ring holds some 60 discs, and the stress of a disc scatters by a quarter: 3 %. The skin of softer discs, a bond
+// radius deep, makes the hole look wider, by a few per cent of R. 5 % is asked.
 TEST(HoleEdge, StressBesideAHole) {
   const double length = cell * table1_diameter;
   const HoleArray sheet(hole_radius / cell, 0.185);

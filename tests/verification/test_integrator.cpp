@@ -61,8 +61,8 @@ double difference(const End& a, const End& b) {
 TEST(Integrator, SecondOrder) {
   const geometry::Packing packing = test::jittered_packing(10, diameter, 4);
   const auto run = [&](int refinement) {
-    solver::Simulation s = test::make_simulation(
-        packing, elastic_options(solver::KernelChoice::openmp, 0.2 / refinement), diameter);
+    solver::Simulation s =
+        test::make_simulation(packing, elastic_options(solver::KernelChoice::openmp, 0.2 / refinement), diameter);
     throw_discs(s, 4);
     for (int k = 0; k < 50 * refinement; ++k) s.step();
     return end_of(s);
@@ -94,7 +94,8 @@ TEST(Integrator, RunsBackToItsStart) {
     const double away = difference(end_of(s), start);
     for (auto* values : {&s.discs().vx, &s.discs().vy, &s.discs().omega})
       for (double& v : *values) v = -v;
-    for (auto* values : {&s.discs().fx, &s.discs().fy, &s.discs().torque}) std::fill(values->begin(), values->end(), 0.0);
+    for (auto* values : {&s.discs().fx, &s.discs().fy, &s.discs().torque})
+      std::fill(values->begin(), values->end(), 0.0);
     for (int k = 0; k < 1000; ++k) s.step();
     const std::string name = kernel == solver::KernelChoice::reference ? "reference" : "openmp";
     expect_at_most("way back after 1,000 steps, " + name + " kernel, over <d>", difference(end_of(s), start) / diameter,

@@ -18,11 +18,11 @@ constexpr double squeeze = 1e-10;
 solver::Simulation pressed(double idle_inertia, double speed, double time_step) {
   const double overlap = squeeze * radius, apart = 2.0 * radius - overlap, middle = 4e-3;
   const double inertia = 0.5 * mass * radius * radius;
-  return few_discs({{middle, middle, radius, mass, 0.0, 0.0, speed, 0.0},
-                    {middle - apart, middle, radius, heavy, heavy, 0.0, 0.0, 0.0},
-                    {middle + apart, middle, radius, heavy, idle_inertia > 0.0 ? idle_inertia * inertia : heavy, 0.0,
-                     0.0, 0.0}},
-                   fixed_cell(8e-3, 8e-3), contact_options(friction, 0.0), time_step);
+  return few_discs(
+      {{middle, middle, radius, mass, 0.0, 0.0, speed, 0.0},
+       {middle - apart, middle, radius, heavy, heavy, 0.0, 0.0, 0.0},
+       {middle + apart, middle, radius, heavy, idle_inertia > 0.0 ? idle_inertia * inertia : heavy, 0.0, 0.0, 0.0}},
+      fixed_cell(8e-3, 8e-3), contact_options(friction, 0.0), time_step);
 }
 
 struct Scales {

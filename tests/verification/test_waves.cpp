@@ -27,8 +27,8 @@ solver::Simulation bar(const Block& block) {
   return solver::Simulation(std::move(input));
 }
 
-/// Period of the standing wave v = v0 sin(2 pi x/length + phase) along x (longitudinal) or y (shear): from the first and
-/// the fifth passage through zero of the velocity's share in that mode, two periods apart; s.
+/// Period of the standing wave v = v0 sin(2 pi x/length + phase) along x (longitudinal) or y (shear): from the first
+/// and the fifth passage through zero of the velocity's share in that mode, two periods apart; s.
 double measured_period(const Block& block, bool shear, double phase, std::vector<std::vector<double>>* table) {
   solver::Simulation s = bar(block);
   constexpr double speed = 1e-4;  // m/s: strains of 1e-7
@@ -68,8 +68,8 @@ double measured_speed(const Block& block, bool shear, std::vector<std::vector<do
 // c = sqrt(C/rho), with the stiffness of this very bar from its linear solution and its bulk density.
 // Dispersion: a bond of length l along the wave answers to sin(k l/2)/(k l/2), so the speed falls by k^2 l^2/24, with
 // k = 2 pi/(100 <d>) and bonds up to 3 <d> 0.1 % at most. Disorder: a standing wave of one wave length weighs the local
-// stiffness by cos^2 and the local density by sin^2, so one bar's sine and cosine waves differ by its Fourier component at
-// 2 k, some per cent; the mean of both squares has no such term. What stays is its square: 1 % is asked.
+// stiffness by cos^2 and the local density by sin^2, so one bar's sine and cosine waves differ by its Fourier component
+// at 2 k, some per cent; the mean of both squares has no such term. What stays is its square: 1 % is asked.
 TEST(Waves, SpeedOfTheMeasuredStiffness) {
   for (const int seed : {1, 2}) {
     const Block block = make_block(plain(length, 20.0 * table1_diameter), static_cast<std::uint64_t>(seed));
