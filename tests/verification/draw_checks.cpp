@@ -24,6 +24,25 @@ std::string suite_of(const std::string& line) {
   return suite.substr(suite.find('/') == std::string::npos ? 0 : suite.find('/') + 1);
 }
 
+/// A row whose formulas Markdown leaves alone: |r| would end the cell, E* would be taken for emphasis.
+std::string in_markdown(const std::string& row) {
+  const std::string no = "**no**";
+  std::string text;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (row.compare(k, 3, "|r|") == 0) {
+      text += 'r';
+      k += 2;
+    } else if (row.compare(k, no.size(), no) == 0) {
+      text += no;
+      k += no.size() - 1;
+    } else {
+      if (row[k] == '*') text += '\\';
+      text += row[k];
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 void insert_checks(const std::filesystem::path& docs) {
@@ -32,10 +51,7 @@ void insert_checks(const std::filesystem::path& docs) {
   for (std::string line; std::getline(lines, line);) {
     std::string& table = tables[suite_of(line)];
     if (table.empty()) table = "\n| check | measured | expected | holds |\n|---|---|---|---|\n";
-    std::string row = line.substr(line.find(" | ") + 3);
-    // A bar inside a formula would end the cell.
-    for (std::size_t at = row.find("|r|"); at != std::string::npos; at = row.find("|r|", at)) row.replace(at, 3, "r");
-    table += "| " + row + " |\n";
+    table += "| " + in_markdown(line.substr(line.find(" | ") + 3)) + " |\n";
   }
   std::string document = read(docs / "verification.md");
   for (const auto& [suite, table] : tables) {
