@@ -91,6 +91,7 @@ SteppingEstimate estimate_stepping(const solver::SolverOptions& options, const g
   request.layout = &no_holes;
   request.options = options;
   request.options.noise.kind = solver::NoiseKind::none;
+  request.options.boundary = {};  // the patch stands for the inside of the block
   request.mean_diameter = discs.mean_diameter;
   constexpr double slow = 1e-3;  // 1/s: so many steps a row that their rounding does not show
   request.options.loading.rate = slow;

@@ -95,9 +95,11 @@ void find_bonds(const geometry::Packing& packing, const geometry::PerforationLay
 
 BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
                               const MaterialOptions& material, const NoiseOptions& noise, std::uint64_t noise_seed,
-                              double mean_diameter) {
+                              double mean_diameter, const FieldFrame& frame) {
   std::optional<PerlinField> field;
-  if (noise.kind == NoiseKind::perlin) field.emplace(clipped.width, clipped.height, noise.length, noise_seed);
+  if (noise.kind == NoiseKind::perlin)
+    field.emplace(frame.width > 0.0 ? frame.width : clipped.width, frame.height > 0.0 ? frame.height : clipped.height,
+                  noise.length, noise_seed);
   const double amplitude = noise.deviation > 0.0 ? perlin_amplitude_for(noise.deviation) : noise.amplitude;
   BondNetwork network;
   find_bonds(
@@ -106,8 +108,9 @@ BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::
         const auto at = static_cast<std::size_t>(i);
         double strength = 1.0;
         if (field)
-          strength =
-              perlin_factor(field->value(clipped.x[at] + 0.5 * branch.x, clipped.y[at] + 0.5 * branch.y), amplitude);
+          strength = perlin_factor(field->value(clipped.x[at] - frame.origin_x + 0.5 * branch.x,
+                                                clipped.y[at] - frame.origin_y + 0.5 * branch.y),
+                                   amplitude);
         if (noise.kind == NoiseKind::weibull)
           strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
         network.i.push_back(i);

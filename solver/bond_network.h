@@ -27,12 +27,18 @@ struct BondNetwork {
   std::int64_t size() const { return static_cast<std::int64_t>(i.size()); }
 };
 
+/// Where the strength field lies when the packing is a block inside a larger cell.
+struct FieldFrame {
+  double width = 0.0, height = 0.0;      ///< periods, m; 0: the packing's own
+  double origin_x = 0.0, origin_y = 0.0;  ///< of the field in the packing, m
+};
+
 /// Bonds every pair with centre distance <= r_H = horizon x mean_diameter, and every touching pair; none where the
 /// segment dips into a perforation by more than 0.25 mean_diameter (docs/theory.md, "Bonds"). Strength factors from the
 /// noise options at the bond's midpoint. Periodic. Cost O(discs + bonds).
 BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
                               const MaterialOptions& material, const NoiseOptions& noise, std::uint64_t noise_seed,
-                              double mean_diameter);
+                              double mean_diameter, const FieldFrame& frame = {});
 
 struct StrengthStatistics {
   double mean = 1.0, deviation = 0.0, smallest = 1.0, largest = 1.0;

@@ -21,7 +21,7 @@ FrameData take_frame(const Simulation& simulation, const std::vector<std::int32_
   FrameData frame;
   frame.strain = simulation.strain();
   frame.time = simulation.time();
-  frame.cell = simulation.cell();
+  frame.cell = simulation.block();
   frame.position.reserve(2 * n);
   for (std::int32_t d = 0; d < discs.size(); ++d) {
     const auto [x, y] = simulation.position(d);

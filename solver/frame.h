@@ -13,8 +13,8 @@ namespace perfora::solver {
 /// n discs, m intact bonds.
 struct FrameData {
   double strain = 0.0, time = 0.0;
-  CellMatrix cell;
-  std::vector<double> position;          ///< (n,2), m, wrapped
+  CellMatrix cell;                       ///< edges of the block, m
+  std::vector<double> position;          ///< (n,2), m from the block's lower left corner, wrapped where periodic
   std::vector<double> angle;             ///< rad
   std::vector<std::int32_t> fragment;    ///< 0 is the largest
   std::vector<double> lost;              ///< share of the original bonds lost, damage counted, 0 to 1

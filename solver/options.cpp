@@ -63,7 +63,8 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Weibull: shape parameter; the mean factor is 1.");
   LoadingOptions& loading = options.loading;
   schema.section("loading", "Oedometric compression: height at constant speed, width fixed.")
-      .real("until", loading.until, Dimension::ratio, {0.0, 0.9, true, false}, "Engineering strain to run to.")
+      .real("until", loading.until, Dimension::ratio, {0.0, largest_strain, true, false},
+            "Engineering strain to run to.")
       .real("rate", loading.rate, Dimension::rate, Range::non_negative(), "Strain rate dH/dt/H0; 0: from transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),
             "Wave transits of the block before the first peak, from its estimated modulus and peak strain.");
@@ -78,6 +79,17 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Time step over the critical one.")
       .choice("kernel", dynamics.kernel, {{"openmp", KernelChoice::openmp}, {"reference", KernelChoice::reference}},
               "openmp: vectorised, all threads; reference: plain and sequential, the oracle.");
+  BoundaryOptions& boundary = options.boundary;
+  schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
+      .choice("top_bottom", boundary.top_bottom,
+              {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
+              "periodic; rigid platens that press and rub but do not pull.")
+      .choice("sides", boundary.sides, {{"periodic", Sides::periodic}, {"walls", Sides::walls}, {"free", Sides::free}},
+              "periodic; rigid walls that stay where they are; free to bulge and to shed fragments.")
+      .real("platen_friction", boundary.platen_friction, Dimension::ratio, Range::between(0.0, 10.0),
+            "mu of a disc on a platen.")
+      .real("wall_friction", boundary.wall_friction, Dimension::ratio, Range::between(0.0, 10.0),
+            "mu of a disc on a side wall.");
   MeasureOptions& measures = options.measures;
   schema.section("measures", "What is read from the curve.")
       .real("plateau_start", measures.plateau_start, Dimension::ratio, Range::between(0.0, 0.9),

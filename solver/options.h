@@ -16,6 +16,11 @@ enum class NoiseKind { none, perlin, weibull };
 enum class MassScaling { uniform_step, physical };
 enum class FrameChoice { none, few, all };
 enum class KernelChoice { reference, openmp };
+enum class TopBottom { periodic, platens };
+enum class Sides { periodic, walls, free };
+
+/// Largest engineering strain a run may be asked for: the vacuum around a block between platens is made for it.
+inline constexpr double largest_strain = 0.9;
 
 /// [material]: bonds, contacts, density. Defaults are the paper's Table 1.
 struct MaterialOptions {
@@ -60,6 +65,14 @@ struct DynamicsOptions {
   KernelChoice kernel = KernelChoice::openmp;
 };
 
+/// [boundary]: what stands at the edges of the block.
+struct BoundaryOptions {
+  TopBottom top_bottom = TopBottom::periodic;
+  Sides sides = Sides::periodic;
+  double platen_friction = 0.4;
+  double wall_friction = 0.0;  ///< none: the walled block then differs from the periodic one by its edges only
+};
+
 /// [measures]
 struct MeasureOptions {
   double plateau_start = 0.20;  ///< engineering strain
@@ -86,13 +99,14 @@ struct SolverOptions {
   NoiseOptions noise;
   LoadingOptions loading;
   DynamicsOptions dynamics;
+  BoundaryOptions boundary;
   MeasureOptions measures;
   OutputOptions output;
   TestOptions test;
 };
 
-/// Adds [material], [noise], [loading], [dynamics], [measures], [output], [test]. A noise amplitude that makes a factor <= 0 is
-/// caught by validate().
+/// Adds [material], [noise], [loading], [dynamics], [boundary], [measures], [output], [test]. A noise amplitude that
+/// makes a factor <= 0 is caught by validate().
 void describe(io::Schema& schema, SolverOptions& options);
 
 /// Checks that reach across keys; throws io::InputError with the origin known to `schema`.

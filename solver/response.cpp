@@ -35,6 +35,10 @@ const std::vector<History::Column>& History::columns() {
       {"friction", "J/m", &History::friction},
       {"viscous", "J/m", &History::viscous},
       {"cundall", "J/m", &History::cundall},
+      {"platen_stress_bottom", "Pa", &History::platen_stress_bottom, true},
+      {"platen_stress_top", "Pa", &History::platen_stress_top, true},
+      {"wall_stress_left", "Pa", &History::wall_stress_left, true},
+      {"wall_stress_right", "Pa", &History::wall_stress_right, true},
   };
   return list;
 }

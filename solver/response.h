@@ -21,12 +21,15 @@ struct History {
   std::vector<double> broken_bonds, fragments, contacts;
   std::vector<double> time;
   std::vector<double> external_work, elastic_bonds, elastic_contacts, kinetic, damage, friction, viscous, cundall;
+  /// Normal force over the block's nominal edge; empty without platens or side walls.
+  std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
 
   /// Columns with their names and SI units, in file order (docs/formats.md).
   struct Column {
     const char* name;
     const char* units;
     std::vector<double> History::*values;
+    bool optional = false;  ///< left out of files where it is empty
   };
   static const std::vector<Column>& columns();
   std::size_t rows() const { return strain_yy.size(); }

@@ -48,11 +48,11 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-Cell oedometric_cell(const geometry::PerforationLayout& layout, double rate) {
+Cell oedometric_cell(const CellMatrix& start, double rate) {
   Cell cell;
-  cell.start = {layout.width, 0.0, layout.height};
+  cell.start = start;
   cell.control = {CellControl::fixed, CellControl::fixed, CellControl::rate};
-  cell.velocity = {0.0, 0.0, -rate * layout.height};
+  cell.velocity = {0.0, 0.0, -rate * start.yy};
   return cell;
 }
 
@@ -93,11 +93,13 @@ class Run {
     summary.rate = setup_.rate;
     summary.step_margin = setup_.critical_step / setup_.time_step;
     SimulationInput input;
-    input.clipped = request.clipped;
+    input.clipped = &setup_.specimen.packing;
     input.network = setup_.network;
     input.options = request.options;
     input.masses = setup_.masses;
-    input.cell = oedometric_cell(*request.layout, setup_.rate);
+    input.cell = oedometric_cell(setup_.specimen.cell, setup_.rate);
+    input.block = setup_.specimen.block;
+    input.walls = setup_.specimen.walls;
     input.time_step = setup_.time_step;
     input.mean_diameter = request.mean_diameter;
     input.threads = request.threads;
@@ -215,6 +217,7 @@ class Run {
     h.friction.push_back(energy.friction);
     h.viscous.push_back(energy.viscous);
     h.cundall.push_back(energy.cundall);
+    add_pressures();
     simulation_->reset_row();
     if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
       if (stress.yy > largest_row_stress_) {
@@ -228,6 +231,18 @@ class Run {
       } else {
         progress_.kinetic_ratio = energy.kinetic / energy.elastic_bonds;
       }
+    }
+  }
+
+  /// Mean pressures on platens and side walls; their columns exist only where such walls are.
+  void add_pressures() {
+    History& h = progress_.history;
+    const Walls& walls = simulation_->walls();
+    for (std::size_t w = 0; w < walls.places().size(); ++w) {
+      if (!walls.places()[w].edge) continue;
+      std::vector<double>* const columns[] = {&h.platen_stress_bottom, &h.platen_stress_top, &h.wall_stress_left,
+                                              &h.wall_stress_right};
+      columns[static_cast<std::size_t>(walls.places()[w].side)]->push_back(walls.row_pressure(w));
     }
   }
 

@@ -115,6 +115,7 @@ std::vector<BreakEvent> read_events(const io::Hdf5Reader& file, const std::strin
 
 void write_history(io::Hdf5Writer& file, const std::string& group, const History& history) {
   for (const History::Column& column : History::columns()) {
+    if (column.optional && (history.*column.values).empty()) continue;
     file.dataset(group + "/" + column.name, history.*column.values, 0, column.units);
     if (*column.units == '\0') file.attribute(group + "/" + column.name, "units", std::string("1"));
   }
@@ -228,9 +229,15 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
                std::vector<double>{near.reference_cell.xx, near.reference_cell.xy, near.reference_cell.yy});
   file.attribute("/near", "rebuilds", near.rebuilds);
   write_events(file, "/events", s.events);
+  if (!simulation.walls().empty()) {
+    file.dataset("/walls/touch", s.walls.touch);
+    file.dataset("/walls/shear", s.walls.shear);
+    file.dataset("/walls/viscous_force", s.walls.viscous_force);
+    file.dataset("/walls/bedded", s.walls.bedded);
+    file.dataset("/walls/row", s.walls.row);
+  }
   file.group("/history");
-  for (const History::Column& column : History::columns())
-    file.dataset(std::string("/history/") + column.name, progress.history.*column.values, 0, column.units);
+  write_history(file, "/history", progress.history);
   file.dataset("/run", std::vector<double>{static_cast<double>(progress.rows), static_cast<double>(progress.frames),
                                            progress.kinetic_ratio, progress.seconds});
   file.commit();
@@ -273,9 +280,17 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   near.reference_cell = {cell.at(0), cell.at(1), cell.at(2)};
   near.rebuilds = file.attribute_int("/near", "rebuilds");
   s.events = read_events(file, "/events");
+  if (!simulation.walls().empty()) {
+    s.walls.touch = file.doubles("/walls/touch");
+    s.walls.shear = file.doubles("/walls/shear");
+    s.walls.viscous_force = file.doubles("/walls/viscous_force");
+    s.walls.bedded = file.uint8s("/walls/bedded");
+    s.walls.row = file.doubles("/walls/row");
+  }
   RunProgress progress;
   for (const History::Column& column : History::columns())
-    progress.history.*column.values = file.doubles(std::string("/history/") + column.name);
+    if (!column.optional || file.has(std::string("/history/") + column.name))
+      progress.history.*column.values = file.doubles(std::string("/history/") + column.name);
   const auto run = file.doubles("/run");
   progress.rows = static_cast<std::int64_t>(run.at(0));
   progress.frames = static_cast<int>(run.at(1));
@@ -304,6 +319,11 @@ void write_run_file(const RunRequest& request, const Simulation& simulation, con
   file.attribute("/", "width", request.layout->width);
   file.attribute("/", "height", request.layout->height);
   file.attribute("/", "mean_diameter", request.mean_diameter);
+  const BoundaryOptions& boundary = request.options.boundary;
+  file.attribute("/", "top_bottom", std::string(boundary.top_bottom == TopBottom::platens ? "platens" : "periodic"));
+  file.attribute("/", "sides", std::string(boundary.sides == Sides::periodic ? "periodic"
+                                           : boundary.sides == Sides::walls  ? "walls"
+                                                                             : "free"));
   write_history(file, "/history", progress.history);
   file.group("/frames");
   for (int k = 0; k < progress.frames; ++k)

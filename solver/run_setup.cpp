@@ -11,12 +11,14 @@ namespace perfora::solver {
 RunSetup set_up_run(const RunRequest& request) {
   const SolverOptions& options = request.options;
   RunSetup s;
-  s.network = make_bond_network(*request.clipped, *request.layout, options.material, options.noise, request.noise_seed,
-                                request.mean_diameter);
+  s.specimen = make_specimen(*request.clipped, *request.layout, options.boundary, options.material,
+                             request.mean_diameter);
+  s.network = make_bond_network(s.specimen.packing, s.specimen.layout, options.material, options.noise,
+                                request.noise_seed, request.mean_diameter, s.specimen.field);
   if (s.network.size() == 0)
     throw io::InputError({"", 0, "material.horizon"}, "no two discs are near enough to be bonded", "",
                          "raise the horizon or the solid fraction");
-  s.masses = make_masses(*request.clipped, s.network, options.material, options.dynamics);
+  s.masses = make_masses(s.specimen.packing, s.network, options.material, options.dynamics);
   s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
                                1.0 - request.layout->solid_area_fraction(), request.mean_diameter);
   s.rate = options.loading.rate > 0.0 ? options.loading.rate : s.loading.rate;

@@ -7,11 +7,13 @@
 #include "solver/bond_network.h"
 #include "solver/mass.h"
 #include "solver/run.h"
+#include "solver/specimen.h"
 
 namespace perfora::solver {
 
 /// Everything that follows from the request before the first step.
 struct RunSetup {
+  Specimen specimen;
   BondNetwork network;
   MassProperties masses;
   LoadingEstimate loading;

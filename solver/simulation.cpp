@@ -78,6 +78,7 @@ ContactLaw make_contact_law(const MaterialOptions& material) {
 Simulation::Simulation(SimulationInput input)
     : options_(std::move(input.options)),
       cell_(input.cell),
+      block_(input.block),
       now_(input.cell.start),
       before_(input.cell.start),
       time_step_(input.time_step),
@@ -106,6 +107,7 @@ Simulation::Simulation(SimulationInput input)
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
   near_pairs_.rebuild(discs_, now_, network_);
+  walls_ = Walls(std::move(input.walls), contact_law_, 1.0 / bond_law_.inverse_critical_normal, discs_, now_);
   backend_ = options_.dynamics.kernel == KernelChoice::reference
                  ? make_reference_backend(bond_law_, contact_law_)
                  : make_openmp_backend(bond_law_, contact_law_, threads_);
@@ -182,7 +184,9 @@ void Simulation::step() {
   broken_.clear();
   ForceStep step{discs_,     network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_),
                  time_step_, broken_};
-  account(backend_->forces(step), before_);
+  StepSums sums = backend_->forces(step);
+  walls_.add_forces(step, threads_, sums);
+  account(sums, before_);
   if (!broken_.empty()) record_breaks();
   compact_when_due();
 }
@@ -198,6 +202,7 @@ void Simulation::account(const StepSums& sums, const CellMatrix& before) {
   ledger.friction += sums.friction;
   ledger.viscous += sums.viscous;
   progress_.virial = sums.virial;
+  walls_.add_to_row(block());
   const Virial s = stress();
   progress_.row_sum.xx += s.xx;
   progress_.row_sum.xy += s.xy;
@@ -253,7 +258,7 @@ void Simulation::compact_when_due() {
 }
 
 Virial Simulation::stress() const {
-  const double inverse = 1.0 / now_.area();
+  const double inverse = 1.0 / block().area();
   const Virial& v = progress_.virial;
   return {v.xx * inverse, v.xy * inverse, v.yx * inverse, v.yy * inverse};
 }
@@ -266,12 +271,14 @@ Virial Simulation::row_stress() const {
 }
 
 void Simulation::reset_row() {
+  walls_.reset_row();
   progress_.row_sum = {};
   progress_.row_steps = 0.0;
 }
 
 Ledger Simulation::ledger() const {
   Ledger ledger = progress_.ledger;
+  ledger.elastic_contacts += walls_.elastic_energy(discs_, now_);
   const double half = 0.5 * time_step_, c = options_.dynamics.cundall_damping;
   for (std::int32_t d = 0; d < discs_.size(); ++d) {
     const std::size_t k = at(d);
@@ -324,12 +331,7 @@ std::int64_t Simulation::contacts() const {
 }
 
 std::pair<double, double> Simulation::position(std::int32_t disc) const {
-  const double sx = static_cast<double>(discs_.sx[at(disc)] >> 11) * 0x1p-53,
-               sy = static_cast<double>(discs_.sy[at(disc)] >> 11) * 0x1p-53;
-  double x = now_.xx * sx + now_.xy * sy;
-  const double y = now_.yy * sy;
-  x -= now_.xx * std::floor(x / now_.xx);
-  return {x, y};
+  return block_.position(discs_.sx[at(disc)], discs_.sy[at(disc)], now_);
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
@@ -339,6 +341,7 @@ Simulation::Snapshot Simulation::snapshot() const {
   s.damage = network_.damage;
   for (const BondState state : network_.state) s.bond_state.push_back(static_cast<std::uint8_t>(state));
   s.near_pairs = near_pairs_.snapshot();
+  s.walls = walls_.snapshot();
   s.events = events_;
   return s;
 }
@@ -351,6 +354,7 @@ void Simulation::restore(Snapshot s) {
   network_.damage = std::move(s.damage);
   for (std::size_t b = 0; b < s.bond_state.size(); ++b) network_.state[b] = static_cast<BondState>(s.bond_state[b]);
   near_pairs_.restore(s.near_pairs);
+  walls_.restore(s.walls);
   events_.reserve(static_cast<std::size_t>(network_.size()));
   events_.assign(s.events.begin(), s.events.end());
   refresh_records();

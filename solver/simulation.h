@@ -12,6 +12,7 @@
 #include "solver/mass.h"
 #include "solver/options.h"
 #include "solver/response.h"
+#include "solver/walls.h"
 
 namespace perfora::solver {
 
@@ -30,6 +31,8 @@ struct SimulationInput {
   SolverOptions options;
   MassProperties masses;
   Cell cell;
+  BlockFrame block;              ///< by default the block is the cell
+  std::vector<WallPlace> walls;  ///< platens and side walls
   double time_step = 0.0;      ///< s
   double mean_diameter = 0.0;  ///< m, sets the Verlet skin
   int threads = 1;
@@ -50,14 +53,17 @@ class Simulation {
   double strain() const { return engineering_strain(cell_.start, now_); }
   const CellMatrix& cell() const { return now_; }
   const Cell& cell_motion() const { return cell_; }
-  /// Stress at this step: sum F_j,a r_b over the area, Pa, compression positive.
+  /// Edges of the block now: the cell's, or the nominal ones between platens and sides, m.
+  CellMatrix block() const { return block_.edges(now_); }
+  const Walls& walls() const { return walls_; }
+  /// Stress at this step: sum F_j,a r_b, walls included, over the area of the block, Pa, compression positive.
   Virial stress() const;
   /// Mean stress since the last call of reset_row(), Pa.
   Virial row_stress() const;
   void reset_row();
   /// All energies now; the kinetic one and the last half kick's damping use the velocity at the full step.
   Ledger ledger() const;
-  std::int64_t contacts() const;  ///< pairs that touch
+  std::int64_t contacts() const;  ///< pairs of discs that touch
 
   /// Largest |sigma_yy| history: tracked every step until freeze_peak().
   double peak_stress() const { return progress_.peak_stress; }
@@ -75,7 +81,7 @@ class Simulation {
   const std::vector<BreakEvent>& events() const { return events_; }
   std::int64_t intact_bonds() const { return static_cast<std::int64_t>(progress_.intact); }
   std::string simd() const { return backend_->simd(); }
-  /// Position of a disc in the deformed cell, m, wrapped.
+  /// Position of a disc from the block's lower left corner, m; wrapped where the block is periodic.
   std::pair<double, double> position(std::int32_t disc) const;
   /// Call after changing discs() from outside.
   void refresh_records();
@@ -101,6 +107,7 @@ class Simulation {
     std::vector<double> damage;
     std::vector<std::uint8_t> bond_state;
     NearPairs::Snapshot near_pairs;
+    Walls::Snapshot walls;
     std::vector<BreakEvent> events;
   };
   Snapshot snapshot() const;
@@ -115,6 +122,7 @@ class Simulation {
 
   SolverOptions options_;
   Cell cell_;
+  BlockFrame block_;
   CellMatrix now_, before_;
   double time_step_;
   int threads_;
@@ -124,6 +132,7 @@ class Simulation {
   std::vector<double> inverse_mass_, inverse_inertia_;
   BondNetwork network_;
   NearPairs near_pairs_;
+  Walls walls_;
   std::unique_ptr<ForceBackend> backend_;
   std::vector<std::int32_t> broken_;
   std::vector<BreakEvent> events_;

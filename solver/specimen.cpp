@@ -1,0 +1,126 @@
+// What is here: see specimen.h.
+#include "solver/specimen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace perfora::solver {
+namespace {
+
+/// Vacuum beyond walls at the end of a run, in largest discs beside r_H: a pair across it is neither bonded nor listed as
+/// near (listed up to 1.4 diameters), and half of it is more than a disc can sink into a wall.
+constexpr double clear_discs = 4.0;
+
+/// One direction of the cell.
+struct Span {
+  double cell = 0.0;    ///< length of the cell, m
+  double offset = 0.0;  ///< of the block in it, m
+};
+
+Span embedded(double block, double between_walls, double vacuum) {
+  const double cell = between_walls + vacuum;
+  return {cell, 0.5 * (cell - block)};
+}
+
+void add_walls(std::vector<WallPlace>& walls, WallSide low, WallSide high, double vacuum_share, double friction,
+               bool edge) {
+  const double half = 0.5 * vacuum_share;
+  walls.push_back({low, half, half, friction, edge, {}});
+  walls.push_back({high, 1.0 - half, half, friction, edge, {}});
+}
+
+/// One bed a disc for the bonds of the periodic block that cross the edge of the wall.
+void add_beds(WallPlace& wall, const geometry::Packing& clipped, const BondNetwork& periodic,
+              const MaterialOptions& material) {
+  const bool vertical = wall.side == WallSide::bottom || wall.side == WallSide::top;
+  const bool low = wall.side == WallSide::bottom || wall.side == WallSide::left;
+  const std::vector<double>& place = vertical ? clipped.y : clipped.x;
+  const double length = vertical ? clipped.height : clipped.width;
+  std::vector<double> normal(place.size(), 0.0), tangential(place.size(), 0.0);
+  for (std::size_t b = 0; b < periodic.i.size(); ++b) {
+    const double nx = periodic.direction_x[b], ny = periodic.direction_y[b];
+    const double along = vertical ? ny : nx, beside = vertical ? nx : ny;
+    const auto i = static_cast<std::size_t>(periodic.i[b]), j = static_cast<std::size_t>(periodic.j[b]);
+    const double end = place[i] + along * periodic.rest_length[b];
+    if (end >= 0.0 && end < length) continue;
+    const std::size_t disc = (end < 0.0) == low ? i : j;  // the end on this wall's side of the block
+    normal[disc] += material.normal_stiffness * along * along + material.tangential_stiffness * beside * beside;
+    tangential[disc] += material.normal_stiffness * beside * beside + material.tangential_stiffness * along * along;
+  }
+  for (std::size_t d = 0; d < place.size(); ++d)
+    if (normal[d] > 0.0) wall.beds.push_back({static_cast<std::int32_t>(d), normal[d], tangential[d]});
+}
+
+/// The holes and their images across cut edges as far as they reach into the block.
+std::vector<geometry::Perforation> cut_holes(const geometry::PerforationLayout& layout, const BlockFrame& block,
+                                             const Span& x, const Span& y) {
+  std::vector<geometry::Perforation> holes;
+  const int images_x = block.open_x ? 1 : 0, images_y = block.open_y ? 1 : 0;
+  for (const geometry::Perforation& hole : layout.perforations)
+    for (int a = -images_x; a <= images_x; ++a)
+      for (int b = -images_y; b <= images_y; ++b) {
+        const double hx = hole.x + a * layout.width, hy = hole.y + b * layout.height, radius = 0.5 * hole.diameter;
+        const bool reaches_x = !block.open_x || (hx + radius > 0.0 && hx - radius < layout.width);
+        const bool reaches_y = !block.open_y || (hy + radius > 0.0 && hy - radius < layout.height);
+        if (reaches_x && reaches_y) holes.push_back({hx + x.offset, hy + y.offset, hole.diameter});
+      }
+  return holes;
+}
+
+}  // namespace
+
+std::pair<double, double> BlockFrame::position(std::uint64_t sx, std::uint64_t sy, const CellMatrix& cell) const {
+  const auto whole = [](std::uint64_t s) { return static_cast<double>(s >> 11) * 0x1p-53; };
+  const auto near_middle = [](std::uint64_t s, double origin, double share) {
+    return reduced(s - fixed_point(origin + 0.5 * share)) + 0.5 * share;
+  };
+  const double y_share = open_y ? near_middle(sy, origin_y, share_y) : whole(sy);
+  const double x_share = open_x ? near_middle(sx, origin_x, share_x) : whole(sx);
+  double x = cell.xx * x_share + cell.xy * y_share;
+  if (!open_x) x -= cell.xx * std::floor(x / cell.xx);
+  return {x, cell.yy * y_share};
+}
+
+Specimen make_specimen(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
+                       const BoundaryOptions& boundary, const MaterialOptions& material, double mean_diameter) {
+  Specimen s;
+  s.packing = clipped;
+  s.layout = layout;
+  s.cell = {layout.width, 0.0, layout.height};
+  s.block.open_x = boundary.sides != Sides::periodic;
+  s.block.open_y = boundary.top_bottom == TopBottom::platens;
+  if (!s.block.open_x && !s.block.open_y) return s;
+
+  double largest_radius = 0.0;
+  for (const double radius : clipped.radius) largest_radius = std::max(largest_radius, radius);
+  const double clear = clear_discs * 2.0 * largest_radius + material.horizon * mean_diameter;
+  Span x{layout.width, 0.0}, y{layout.height, 0.0};
+  if (s.block.open_y) {
+    // The vacuum shrinks with the cell, and a resumed run may be asked to go farther: made for the largest strain.
+    const double vacuum = clear / (1.0 - largest_strain);
+    y = embedded(layout.height, layout.height, vacuum);
+    add_walls(s.walls, WallSide::bottom, WallSide::top, vacuum / y.cell, boundary.platen_friction, true);
+  }
+  if (s.block.open_x) {
+    const bool free = boundary.sides == Sides::free;
+    x = embedded(layout.width, free ? catch_widths * layout.width : layout.width, clear);
+    add_walls(s.walls, WallSide::left, WallSide::right, clear / x.cell, free ? 0.0 : boundary.wall_friction, !free);
+  }
+  const BondNetwork periodic = make_bond_network(clipped, layout, material, {}, 1, mean_diameter);
+  for (WallPlace& wall : s.walls)
+    if (wall.edge) add_beds(wall, clipped, periodic, material);
+  s.cell = {x.cell, 0.0, y.cell};
+  s.block.origin_x = x.offset / x.cell;
+  s.block.origin_y = y.offset / y.cell;
+  s.block.share_x = layout.width / x.cell;
+  s.block.share_y = layout.height / y.cell;
+  s.field = {layout.width, layout.height, x.offset, y.offset};
+  s.layout = {x.cell, y.cell, cut_holes(layout, s.block, x, y)};
+  s.packing.width = x.cell;
+  s.packing.height = y.cell;
+  for (double& place : s.packing.x) place += x.offset;
+  for (double& place : s.packing.y) place += y.offset;
+  return s;
+}
+
+}  // namespace perfora::solver
