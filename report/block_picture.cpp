@@ -26,11 +26,12 @@ struct Disc {
 template <class Draw>
 void for_images(const BlockPicture& block, std::size_t k, double radius, const Draw& draw) {
   const double shear = block.h_xy / block.h_yy;
-  const double reach = radius * (1.0 + std::abs(shear));
-  for (int b = -1; b <= 1; ++b) {
+  const double reach = radius * (1.0 + std::abs(shear)) + block.beyond;
+  const int images_x = block.edges.open_x() ? 0 : 1, images_y = block.edges.platens ? 0 : 1;
+  for (int b = -images_y; b <= images_y; ++b) {
     const double y = block.y[k] + b * block.h_yy;
     if (y < -radius || y > block.h_yy + radius) continue;
-    for (int a = -1; a <= 1; ++a) {
+    for (int a = -images_x; a <= images_x; ++a) {
       const double x = block.x[k] + a * block.h_xx + b * block.h_xy;
       const double from_left = x - shear * y;
       if (from_left < -reach || from_left > block.h_xx + reach) continue;
@@ -41,18 +42,55 @@ void for_images(const BlockPicture& block, std::size_t k, double radius, const D
 
 void outline_path(cairo_t* context, const BlockPicture& block) {
   cairo_new_path(context);
-  cairo_move_to(context, 0.0, 0.0);
-  cairo_line_to(context, block.h_xx, 0.0);
-  cairo_line_to(context, block.h_xx + block.h_xy, block.h_yy);
-  cairo_line_to(context, block.h_xy, block.h_yy);
+  cairo_move_to(context, -block.beyond, 0.0);
+  cairo_line_to(context, block.h_xx + block.beyond, 0.0);
+  cairo_line_to(context, block.h_xx + block.beyond + block.h_xy, block.h_yy);
+  cairo_line_to(context, block.h_xy - block.beyond, block.h_yy);
   cairo_close_path(context);
 }
 
 /// User space of `context` becomes metres of the block, y upwards, for a block drawn in `box`.
 void enter_block(cairo_t* context, const Box& box, const BlockPicture& block) {
   const double scale = box.width / block.extent_x();
-  cairo_translate(context, box.x - std::min(0.0, block.h_xy) * scale, box.bottom());
+  cairo_translate(context, box.x + (block.beyond - std::min(0.0, block.h_xy)) * scale, box.bottom());
   cairo_scale(context, scale, -scale);
+}
+
+/// The edges of the block, in the width that says what stands there.
+void draw_edges(cairo_t* context, const Box& box, const BlockPicture& block) {
+  constexpr double thin = 1.6, bar = 6.0;
+  const auto line = [&](double x0, double y0, double x1, double y1, double width) {
+    cairo_save(context);
+    enter_block(context, box, block);
+    cairo_new_path(context);
+    cairo_move_to(context, x0, y0);
+    cairo_line_to(context, x1, y1);
+    cairo_restore(context);
+    cairo_set_line_width(context, width);
+    cairo_stroke(context);
+  };
+  set_colour(context, palette::ink);
+  cairo_save(context);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_SQUARE);
+  const double left = -block.beyond, right = block.h_xx + block.beyond, lean = block.h_xy;
+  const double level = block.edges.platens ? bar : thin;
+  line(left, 0.0, right, 0.0, level);
+  line(left + lean, block.h_yy, right + lean, block.h_yy, level);
+  if (!block.edges.free) {
+    const double upright = block.edges.walls ? bar : thin;
+    line(0.0, 0.0, lean, block.h_yy, upright);
+    line(block.h_xx, 0.0, block.h_xx + lean, block.h_yy, upright);
+  }
+  cairo_restore(context);
+}
+
+/// How far discs reach beyond free sides, but no farther than is worth the room.
+double shown_beyond(const BlockPicture& block) {
+  constexpr double most_share = 0.5;
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < block.x.size(); ++k)
+    farthest = std::max({farthest, block.radius[k] - block.x[k], block.x[k] + block.radius[k] - block.h_xx});
+  return std::min(farthest, most_share * block.h_xx);
 }
 
 void paint_discs(cairo_t* context, const BlockPicture& block, bool ground, double rim) {
@@ -85,11 +123,12 @@ double damage_tint(double damage, int hue) {
 }  // namespace
 
 double BlockPicture::extent_x() const {
-  return h_xx + std::abs(h_xy);
+  return h_xx + 2.0 * beyond + std::abs(h_xy);
 }
 
-BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped) {
+BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped, const Edges& edges) {
   BlockPicture picture;
+  picture.edges = edges;
   picture.h_xx = frame.info.h_xx;
   picture.h_xy = frame.info.h_xy;
   picture.h_yy = frame.info.h_yy;
@@ -106,6 +145,7 @@ BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipp
     picture.colour.push_back(mix(plain, palette::damaged, damage_tint(frame.damage[k], hue)));
     picture.growth.push_back(hue == dust_colour ? 0.0 : bonded_growth * (1.0 - std::clamp(frame.damage[k], 0.0, 1.0)));
   }
+  if (edges.free) picture.beyond = shown_beyond(picture);
   return picture;
 }
 
@@ -161,13 +201,7 @@ void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture) {
   cairo_restore(context);
   cairo_surface_destroy(image);
 
-  cairo_save(context);
-  enter_block(context, box, picture);
-  outline_path(context, picture);
-  cairo_restore(context);
-  set_colour(context, palette::ink);
-  cairo_set_line_width(context, 1.6);
-  cairo_stroke(context);
+  draw_edges(context, box, picture);
 }
 
 void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_metre) {

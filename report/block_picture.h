@@ -13,9 +13,11 @@
 
 namespace perfora::report {
 
-/// Discs in a cell with edges (h_xx, 0) and (h_xy, h_yy), m; equally long columns.
+/// Discs in a block with edges (h_xx, 0) and (h_xy, h_yy), m; equally long columns.
 struct BlockPicture {
   double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;
+  Edges edges;
+  double beyond = 0.0;  ///< what is shown to either side of the block, m: where its sides are free
   std::vector<double> x, y, radius;
   std::vector<Colour> colour;
   /// Share by which a disc is drawn larger than it is, to close the pores of the packing (not the perforations); one
@@ -27,7 +29,8 @@ struct BlockPicture {
 
 /// The colour of every disc by its fragment: concrete for fragment 0, a colour that no touching fragment has for others
 /// of at least `dust` discs, one grey for what is smaller; lost bonds turn a disc dark red.
-BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped);
+/// With free sides the picture is wider by what has bulged or flown off, up to half a width on either side.
+BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped, const Edges& edges = {});
 /// Discs by size, light (small) to dark (large).
 BlockPicture picture_of_packing(const geometry::Packing& packing);
 Colour size_colour(double share);  ///< share 0 (smallest) to 1
@@ -43,7 +46,8 @@ std::vector<int> colour_fragments(const Frame& frame, std::span<const double> ra
 /// The largest box of the block's shape inside `room`, centred in x and at the given share of the free height (0 top, 1
 /// bottom).
 Box fit_block(const BlockPicture& picture, const Box& room, double vertical_share);
-/// Draws the discs (periodic images included, cut at the outline) and the outline of the cell.
+/// Draws the discs (periodic images included, cut at the outline) and the edges: thin lines where the block is
+/// periodic, bars for platens and walls, nothing at free sides.
 void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture);
 /// A bar of a round length and its text, right aligned at (right, y).
 void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_metre);

@@ -23,14 +23,20 @@ std::vector<std::pair<std::int32_t, std::int32_t>> touching_fragments(const Fram
   const std::size_t discs = radius.size();
   if (discs == 0) return pairs;
   const double side = 2.0 * neighbour_reach * *std::max_element(radius.begin(), radius.end());
-  const auto columns = static_cast<std::int64_t>((frame.info.h_xx + std::abs(frame.info.h_xy)) / side) + 3;
-  const auto rows = static_cast<std::int64_t>(frame.info.h_yy / side) + 3;
-  const double left = std::min(0.0, frame.info.h_xy);
+  double left = frame.position[0], right = left, low = frame.position[1], high = low;
+  for (std::size_t k = 0; k < discs; ++k) {
+    left = std::min(left, frame.position[2 * k]);
+    right = std::max(right, frame.position[2 * k]);
+    low = std::min(low, frame.position[2 * k + 1]);
+    high = std::max(high, frame.position[2 * k + 1]);
+  }
+  const auto columns = static_cast<std::int64_t>((right - left) / side) + 3;
+  const auto rows = static_cast<std::int64_t>((high - low) / side) + 3;
   const auto cell_of = [&](std::size_t k) {
     const auto cx =
         std::clamp<std::int64_t>(static_cast<std::int64_t>((frame.position[2 * k] - left) / side) + 1, 1, columns - 2);
     const auto cy =
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(frame.position[2 * k + 1] / side) + 1, 1, rows - 2);
+        std::clamp<std::int64_t>(static_cast<std::int64_t>((frame.position[2 * k + 1] - low) / side) + 1, 1, rows - 2);
     return static_cast<std::size_t>(cy * columns + cx);
   };
   std::vector<std::int32_t> head(static_cast<std::size_t>(columns * rows), -1);

@@ -85,7 +85,7 @@ void draw_badges(Canvas& canvas, const Chart& chart, const std::vector<RunPictur
 
 void draw_snapshot(Canvas& canvas, const RunResult& run, const RunPicture::Snapshot& snapshot, char letter,
                    const Box& room) {
-  const BlockPicture picture = picture_of_frame(snapshot.frame, run.clipped);
+  const BlockPicture picture = picture_of_frame(snapshot.frame, run.clipped, run.edges);
   const Box box = fit_block(
       picture, {room.x, room.y + caption_height, room.width, room.height - caption_height - scale_height}, 0.0);
   canvas.badge(box.x + 11.5, box.y - 18.0, std::string(1, letter));

@@ -22,10 +22,11 @@ constexpr const char* test_format = "perfora.test/1";
 constexpr const char* elastic_format = "perfora.elastic/1";
 
 /// Order of docs/formats.md (HDF5 lists its members by the alphabet).
-constexpr std::array<const char*, 18> history_order = {
+constexpr std::array<const char*, 22> history_order = {
     "strain_yy",        "strain_yy_log", "stress_yy", "stress_xx", "stress_xy",     "stress_asymmetry",
     "broken_bonds",     "fragments",     "contacts",  "time",      "external_work", "elastic_bonds",
-    "elastic_contacts", "kinetic",       "damage",    "friction",  "viscous",       "cundall"};
+    "elastic_contacts", "kinetic",       "damage",    "friction",  "viscous",       "cundall",
+    "platen_stress_bottom", "platen_stress_top", "wall_stress_left", "wall_stress_right"};
 
 [[noreturn]] void refuse(const io::Hdf5Reader& file, const std::string& key, const std::string& problem,
                          const std::string& allowed = {}) {
@@ -90,6 +91,11 @@ Provenance read_provenance(const io::Hdf5Reader& file) {
   if (file.has_attribute("/", "results_version")) made.results_version = file.attribute_int("/", "results_version");
   if (file.has_attribute("/", "seconds")) made.seconds = file.attribute_double("/", "seconds");
   return made;
+}
+
+Edges read_edges(const io::Hdf5Reader& file) {
+  const std::string sides = optional_attribute(file, "sides");
+  return {optional_attribute(file, "top_bottom") == "platens", sides == "walls", sides == "free"};
 }
 
 nlohmann::json read_summary(const io::Hdf5Reader& file) {
@@ -238,6 +244,7 @@ RunResult read_run(const std::filesystem::path& path) {
   run.height = file.attribute_double("/", "height");
   run.mean_diameter = file.attribute_double("/", "mean_diameter");
   if (!(run.width > 0.0) || !(run.height > 0.0)) refuse(file, "width", "the block has no size", "positive sizes");
+  run.edges = read_edges(file);
   run.history = read_history(file);
   run.frames = read_frame_list(file);
   run.clipped = geometry::read_packing(file, "/clipped");

@@ -28,13 +28,13 @@ struct FrameInfo {
   std::string name;  ///< "00000"
   double strain = 0.0;
   double time = 0.0;                          ///< s
-  double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;  ///< cell, m
+  double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;  ///< edges of the block, m
 };
 
 /// Discs and bonds at one strain; n discs, m intact bonds.
 struct Frame {
   FrameInfo info;
-  std::vector<double> position;          ///< (n,2), m, wrapped into the deformed cell
+  std::vector<double> position;          ///< (n,2), m from the block's lower left corner, wrapped where it is periodic
   std::vector<double> angle;             ///< rad
   std::vector<std::int32_t> fragment;    ///< 0 is the largest
   std::vector<double> damage;            ///< share of the original bonds lost, 0 to 1
@@ -64,12 +64,21 @@ struct Provenance {
   double seconds = 0.0;
 };
 
+/// What stands at the edges of the block.
+struct Edges {
+  bool platens = false;  ///< at top and bottom; else periodic
+  bool walls = false;    ///< at the sides
+  bool free = false;     ///< sides; neither: periodic
+  bool open_x() const { return walls || free; }
+};
+
 /// R.h5 without its frames' discs (read_frame reads those one by one: a run with all frames may not fit in memory).
 struct RunResult {
   std::filesystem::path path;
   std::string status, reason;
   Provenance provenance;
   double width = 0.0, height = 0.0, mean_diameter = 0.0;  ///< m
+  Edges edges;
   std::vector<Column> history;    ///< equally long, in the order of docs/formats.md, further ones after them
   std::vector<FrameInfo> frames;  ///< by rising strain
   Events events;
