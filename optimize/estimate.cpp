@@ -116,6 +116,22 @@ double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double
   return std::max(0.0, (density * circle - missing_discs) * share);
 }
 
+double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,
+                          double density, double radius) {
+  // Chord of a hole in the edge, of the image of the hole that is nearest to it.
+  const auto chord = [](double place, double period, double diameter) {
+    const double off = std::remainder(place, period);
+    return std::sqrt(std::max(0.0, diameter * diameter - 4.0 * off * off));
+  };
+  double level = boundary.top_bottom == solver::TopBottom::periodic ? 0.0 : layout.width;
+  double upright = boundary.sides == solver::Sides::periodic ? 0.0 : layout.height;
+  for (const geometry::Perforation& hole : layout.perforations) {
+    if (level > 0.0) level -= chord(hole.y, layout.height, hole.diameter);
+    if (upright > 0.0) upright -= chord(hole.x, layout.width, hole.diameter);
+  }
+  return 2.0 / 3.0 * density * density * radius * radius * radius * (std::max(0.0, level) + std::max(0.0, upright));
+}
+
 DesignEstimate estimate_design(const DesignFile& file, int threads) {
   const Design& design = file.design();
   DesignEstimate estimate;
@@ -128,8 +144,11 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   estimate.porosity = 1.0 - solid;
   estimate.horizon_radius = design.solver.material.horizon * discs.mean_diameter;
   estimate.discs = std::llround(static_cast<double>(discs.count) * solid);
+  const double density = static_cast<double>(discs.count) / cell;
+  const double cut = bonds_cut_by_edges(layout, design.solver.boundary, density, estimate.horizon_radius);
   estimate.bonds_per_disc =
-      expected_bonds_per_disc(layout, static_cast<double>(discs.count) / cell, estimate.horizon_radius);
+      std::max(0.0, expected_bonds_per_disc(layout, density, estimate.horizon_radius) -
+                        2.0 * cut / std::max(1.0, static_cast<double>(estimate.discs)));
   estimate.bonds = std::llround(0.5 * estimate.bonds_per_disc * static_cast<double>(estimate.discs));
   estimate_steps(design, layout, discs, estimate);
   estimate_resources(design, threads, estimate);

@@ -21,10 +21,17 @@ constexpr double middle = 850.0;  ///< where the blocks begin
 constexpr double caption_height = 36.0;
 constexpr double scale_height = 30.0;
 
+std::string describe_edges(const Edges& edges) {
+  if (edges.walls) return edges.platens ? " between platens and side walls" : " between side walls";
+  if (edges.free) return edges.platens ? " between platens, free sides" : " with free sides";
+  return edges.platens ? " between platens" : "";
+}
+
 std::string describe_block(const RunResult& run) {
   const std::size_t holes = run.layout.perforations.size();
-  return fmt::format("{} x {} mm block, {} perforation{}, {} discs of {} mm mean diameter, {} bonds",
-                     short_number(run.width * 1e3), short_number(run.height * 1e3), holes, holes == 1 ? "" : "s",
+  return fmt::format("{} x {} mm block{}, {} perforation{}, {} discs of {} mm mean diameter, {} bonds",
+                     short_number(run.width * 1e3), short_number(run.height * 1e3), describe_edges(run.edges), holes,
+                     holes == 1 ? "" : "s",
                      with_thousands(run.clipped.size()), short_number(run.mean_diameter * 1e3),
                      with_thousands(static_cast<std::int64_t>(run.bonds.size())));
 }

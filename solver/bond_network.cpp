@@ -102,24 +102,24 @@ BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::
                   noise.length, noise_seed);
   const double amplitude = noise.deviation > 0.0 ? perlin_amplitude_for(noise.deviation) : noise.amplitude;
   BondNetwork network;
-  find_bonds(
-      clipped, layout, material.horizon, mean_diameter, [&](std::int32_t i, std::int32_t j, const Branch& branch) {
-        const double length = std::sqrt(branch.x * branch.x + branch.y * branch.y);
-        const auto at = static_cast<std::size_t>(i);
-        double strength = 1.0;
-        if (field)
-          strength = perlin_factor(field->value(clipped.x[at] - frame.origin_x + 0.5 * branch.x,
-                                                clipped.y[at] - frame.origin_y + 0.5 * branch.y),
-                                   amplitude);
-        if (noise.kind == NoiseKind::weibull)
-          strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
-        network.i.push_back(i);
-        network.j.push_back(j);
-        network.rest_length.push_back(length);
-        network.direction_x.push_back(branch.x / length);
-        network.direction_y.push_back(branch.y / length);
-        network.strength.push_back(strength);
-      });
+  find_bonds(clipped, layout, material.horizon, mean_diameter,
+             [&](std::int32_t i, std::int32_t j, const Branch& branch) {
+               const double length = std::sqrt(branch.x * branch.x + branch.y * branch.y);
+               const auto at = static_cast<std::size_t>(i);
+               double strength = 1.0;
+               if (field)
+                 strength = perlin_factor(field->value(clipped.x[at] - frame.origin_x + 0.5 * branch.x,
+                                                       clipped.y[at] - frame.origin_y + 0.5 * branch.y),
+                                          amplitude);
+               if (noise.kind == NoiseKind::weibull)
+                 strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
+               network.i.push_back(i);
+               network.j.push_back(j);
+               network.rest_length.push_back(length);
+               network.direction_x.push_back(branch.x / length);
+               network.direction_y.push_back(branch.y / length);
+               network.strength.push_back(strength);
+             });
   network.damage.assign(network.i.size(), 0.0);
   network.state.assign(network.i.size(), BondState::intact);
   return network;

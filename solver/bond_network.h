@@ -29,7 +29,7 @@ struct BondNetwork {
 
 /// Where the strength field lies when the packing is a block inside a larger cell.
 struct FieldFrame {
-  double width = 0.0, height = 0.0;      ///< periods, m; 0: the packing's own
+  double width = 0.0, height = 0.0;       ///< periods, m; 0: the packing's own
   double origin_x = 0.0, origin_y = 0.0;  ///< of the field in the packing, m
 };
 

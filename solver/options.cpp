@@ -81,8 +81,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
               "openmp: vectorised, all threads; reference: plain and sequential, the oracle.");
   BoundaryOptions& boundary = options.boundary;
   schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
-      .choice("top_bottom", boundary.top_bottom,
-              {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
+      .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
               "periodic; rigid platens that press and rub but do not pull.")
       .choice("sides", boundary.sides, {{"periodic", Sides::periodic}, {"walls", Sides::walls}, {"free", Sides::free}},
               "periodic; rigid walls that stay where they are; free to bulge and to shed fragments.")

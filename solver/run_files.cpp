@@ -321,9 +321,10 @@ void write_run_file(const RunRequest& request, const Simulation& simulation, con
   file.attribute("/", "mean_diameter", request.mean_diameter);
   const BoundaryOptions& boundary = request.options.boundary;
   file.attribute("/", "top_bottom", std::string(boundary.top_bottom == TopBottom::platens ? "platens" : "periodic"));
-  file.attribute("/", "sides", std::string(boundary.sides == Sides::periodic ? "periodic"
-                                           : boundary.sides == Sides::walls  ? "walls"
-                                                                             : "free"));
+  file.attribute("/", "sides",
+                 std::string(boundary.sides == Sides::periodic ? "periodic"
+                             : boundary.sides == Sides::walls  ? "walls"
+                                                               : "free"));
   write_history(file, "/history", progress.history);
   file.group("/frames");
   for (int k = 0; k < progress.frames; ++k)

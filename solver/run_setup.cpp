@@ -11,8 +11,8 @@ namespace perfora::solver {
 RunSetup set_up_run(const RunRequest& request) {
   const SolverOptions& options = request.options;
   RunSetup s;
-  s.specimen = make_specimen(*request.clipped, *request.layout, options.boundary, options.material,
-                             request.mean_diameter);
+  s.specimen =
+      make_specimen(*request.clipped, *request.layout, options.boundary, options.material, request.mean_diameter);
   s.network = make_bond_network(s.specimen.packing, s.specimen.layout, options.material, options.noise,
                                 request.noise_seed, request.mean_diameter, s.specimen.field);
   if (s.network.size() == 0)

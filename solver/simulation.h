@@ -33,8 +33,8 @@ struct SimulationInput {
   Cell cell;
   BlockFrame block;              ///< by default the block is the cell
   std::vector<WallPlace> walls;  ///< platens and side walls
-  double time_step = 0.0;      ///< s
-  double mean_diameter = 0.0;  ///< m, sets the Verlet skin
+  double time_step = 0.0;        ///< s
+  double mean_diameter = 0.0;    ///< m, sets the Verlet skin
   int threads = 1;
 };
 

@@ -7,8 +7,8 @@
 namespace perfora::solver {
 namespace {
 
-/// Vacuum beyond walls at the end of a run, in largest discs beside r_H: a pair across it is neither bonded nor listed as
-/// near (listed up to 1.4 diameters), and half of it is more than a disc can sink into a wall.
+/// Vacuum beyond walls at the end of a run, in largest discs beside r_H: a pair across it is neither bonded nor listed
+/// as near (listed up to 1.4 diameters), and half of it is more than a disc can sink into a wall.
 constexpr double clear_discs = 4.0;
 
 /// One direction of the cell.

@@ -21,9 +21,7 @@ struct BlockFrame {
   bool open_x = false, open_y = false;    ///< beyond the edges there is vacuum, no periodic image
 
   /// Edges of the block as it is now, m: the cell's, or the nominal rectangle between the platens and sides.
-  CellMatrix edges(const CellMatrix& cell) const {
-    return {cell.xx * share_x, cell.xy * share_y, cell.yy * share_y};
-  }
+  CellMatrix edges(const CellMatrix& cell) const { return {cell.xx * share_x, cell.xy * share_y, cell.yy * share_y}; }
   /// Place in m from the block's lower left corner; wrapped into the cell where the block is periodic, as near to the
   /// middle as an image can be where it is not.
   std::pair<double, double> position(std::uint64_t sx, std::uint64_t sy, const CellMatrix& cell) const;

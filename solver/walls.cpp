@@ -53,8 +53,8 @@ ContactLaw Walls::law_of(const Contact& contact, std::size_t w) const {
   return law;
 }
 
-/// Wall i, disc j, n into the block: laws.h's contact with the disc's own mass (the wall's is infinite) and its distance
-/// as lever. Relative velocity: v' + L (x - nearest point of the wall).
+/// Wall i, disc j, n into the block: laws.h's contact with the disc's own mass (the wall's is infinite) and its
+/// distance as lever. Relative velocity: v' + L (x - nearest point of the wall).
 void Walls::touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& chunk) {
   DiscState& discs = step.discs;
   Contact& contact = contact_[w * discs_ + d];
