@@ -97,7 +97,8 @@ void Walls::touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums&
   v.yy += py * ry;
   chunk.sums.friction += f.friction;
   chunk.sums.viscous += f.viscous;
-  chunk.sums.largest_overlap = std::max(chunk.sums.largest_overlap, overlap);
+  // A bed stands for bonds, whose shortening is no overlap of discs.
+  if (!contact.bedded()) chunk.sums.largest_overlap = std::max(chunk.sums.largest_overlap, overlap);
 }
 
 void Walls::add_forces(ForceStep& step, int threads, StepSums& sums) {
