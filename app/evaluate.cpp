@@ -121,11 +121,18 @@ void refuse_with_elastic(const EvaluateFlags& flags) {
                            "", "give only one of them");
 }
 
+/// The elastic answer knows no edges: it is that of the periodic block.
+void warn_about_edges(const solver::BoundaryOptions& boundary, std::vector<std::string>& warnings) {
+  if (boundary.top_bottom != solver::TopBottom::periodic || boundary.sides != solver::Sides::periodic)
+    warnings.push_back("--elastic answers for the periodic block; [boundary] is not looked at");
+}
+
 int evaluate_elastic(const EvaluateFlags& flags) {
   refuse_with_elastic(flags);
   remove_stop_handlers();
   const optimize::DesignFile design = read_design(flags);
-  const std::vector<std::string> warnings = design.validate();
+  std::vector<std::string> warnings = design.validate();
+  warn_about_edges(design.design().solver.boundary, warnings);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-elastic.h5"));
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
   check_new_output(output, flags.common.force);
