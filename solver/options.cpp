@@ -63,7 +63,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Weibull: shape parameter; the mean factor is 1.");
   LoadingOptions& loading = options.loading;
   schema.section("loading", "Oedometric compression: height at constant speed, width fixed.")
-      .real("until", loading.until, Dimension::ratio, {0.0, largest_strain, true, false},
+      .real("until", loading.until, Dimension::ratio, {0.0, largest_run_strain, true, false},
             "Engineering strain to run to.")
       .real("rate", loading.rate, Dimension::rate, Range::non_negative(), "Strain rate dH/dt/H0; 0: from transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),

@@ -97,7 +97,7 @@ Specimen make_specimen(const geometry::Packing& clipped, const geometry::Perfora
   Span x{layout.width, 0.0}, y{layout.height, 0.0};
   if (s.block.open_y) {
     // The vacuum shrinks with the cell, and a resumed run may be asked to go farther: made for the largest strain.
-    const double vacuum = clear / (1.0 - largest_strain);
+    const double vacuum = clear / (1.0 - largest_run_strain);
     y = embedded(layout.height, layout.height, vacuum);
     add_walls(s.walls, WallSide::bottom, WallSide::top, vacuum / y.cell, boundary.platen_friction, true);
   }

@@ -125,7 +125,7 @@ TEST(Specimen, VacuumOutlastsTheLargestStrain) {
   boundary.sides = Sides::walls;
   const Specimen s = make_specimen(packing, test::no_holes(packing), boundary, {}, pitch);
   const double reach = 3.0 * pitch + 2.0 * 0.48 * pitch;  // r_H and a largest disc
-  EXPECT_GT((1.0 - largest_strain) * (s.cell.yy - packing.height), reach);
+  EXPECT_GT((1.0 - largest_run_strain) * (s.cell.yy - packing.height), reach);
   EXPECT_GT(s.cell.xx - packing.width, reach);
 }
 
