@@ -1,5 +1,5 @@
-// What is here: `perfora check`: what a design or a study would run, without placing a disc. What is not: the estimates
-// (optimize/estimate.h).
+// What is here: `perfora check`: what a design, a study or a calibration would run, without placing a disc. What is
+// not: the estimates (optimize/estimate.h).
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -7,6 +7,7 @@
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "io/schema.h"
+#include "optimize/calibration.h"
 #include "optimize/estimate.h"
 #include "optimize/study.h"
 
@@ -90,9 +91,9 @@ int report(const CheckFlags& flags, const char* kind, const json& study, const s
   return exit_ok;
 }
 
-bool is_study(const std::filesystem::path& path) {
+bool has_section(const std::filesystem::path& path, const std::string& section) {
   for (const io::Entry& entry : io::read_toml(path))
-    if (entry.key.starts_with("study.")) return true;
+    if (entry.key.starts_with(section + ".")) return true;
   return false;
 }
 
@@ -120,16 +121,48 @@ int check_study_file(const CheckFlags& flags) {
   return report(flags, "study", object, text, *study.start, study.warnings);
 }
 
+int check_calibration(const CheckFlags& flags) {
+  const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
+  const optimize::DesignFile sample = optimize::material_sample(*calibration.start);
+  const std::vector<std::string> warnings = sample.validate();
+  const optimize::DesignEstimate estimate = optimize::estimate_design(sample, flags.common.thread_count());
+  constexpr int tests_a_point = 2, tests_at_the_end = 4;
+  const int points = optimize::most_points(calibration);
+  const int tests = (tests_a_point * points + tests_at_the_end) * calibration.keys.replicates;
+  if (flags.common.json) {
+    print_json({{"schema", "perfora.check/1"},
+                {"status", "completed"},
+                {"reason", ""},
+                {"kind", "calibration"},
+                {"discs", estimate.discs},
+                {"bonds", estimate.bonds},
+                {"points", points},
+                {"tests", tests},
+                {"warnings", warnings}});
+  } else {
+    print_text(fmt::format("{}: a valid calibration\n", flags.file) +
+               line("discs of a sample", with_thousands(static_cast<double>(estimate.discs))) +
+               line("bonds of a sample", with_thousands(static_cast<double>(estimate.bonds))) +
+               line("points, at most", fmt::format("{}", points)) +
+               line("material tests, at most", fmt::format("{}", tests)));
+  }
+  log_warnings(warnings);
+  return exit_ok;
+}
+
 }  // namespace
 
 void add_check(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<CheckFlags>();
-  CLI::App* command = program.add_subcommand("check", "Say what a design or study would run, without running it");
-  command->add_option("FILE", flags->file, "Design or study file (TOML)")->required();
+  CLI::App* command =
+      program.add_subcommand("check", "Say what a design, study or calibration would run, without running it");
+  command->add_option("FILE", flags->file, "Design, study or calibration file (TOML)")->required();
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
-    exit_code = is_study(flags->file) ? check_study_file(*flags) : check_design(*flags);
+    exit_code = has_section(flags->file, "study")       ? check_study_file(*flags)
+                : has_section(flags->file, "calibrate") ? check_calibration(*flags)
+                                                        : check_design(*flags);
   });
 }
 

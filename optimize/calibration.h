@@ -89,6 +89,9 @@ struct CalibrationOptions {
 /// (the design with the parameters found), result.json, reachable.csv. Throws io::InputError.
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options);
 
+/// Largest number of points a calibration may test.
+int most_points(const Calibration& calibration);
+
 /// Voigt's k_t/k_n for a two-dimensional Poisson ratio: (1 - 3 nu)/(1 + nu), at least `least`.
 double voigt_stiffness_ratio(double poisson_ratio, double least);
 

@@ -35,6 +35,7 @@ constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};
 /// The chart.
 constexpr double chart_delays[] = {1.0, 1.1, 1.5, 2.0};
 constexpr double chart_shear_ratios[] = {1.0, 2.0, 3.5, 6.0, 12.0, 32.0};
+constexpr int chart_points = static_cast<int>(std::size(chart_delays) * std::size(chart_shear_ratios));
 
 class Search {
  public:
@@ -379,6 +380,13 @@ class Search {
 };
 
 }  // namespace
+
+int most_points(const Calibration& calibration) {
+  const CalibrationKeys& keys = calibration.keys;
+  if (!(keys.compressive_strength > 0.0)) return keys.chart ? 1 + chart_points : 1;
+  const int delays = keys.vary_rupture_delay ? 1 + static_cast<int>(std::size(rupture_delays)) : 1;
+  return keys.maxeval * delays + (keys.chart ? chart_points : 0);
+}
 
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options) {
   CalibrationResult result = Search(calibration, options).run();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "optimize/calibration.h"
 #include "optimize/design.h"
 #include "optimize/study.h"
 #include "tests/optimize/design_support.h"
@@ -19,8 +20,8 @@ const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) 
 
 TEST(DesignFile, HasAllSections) {
   const DesignFile design;
-  const std::vector<std::string> wanted = {"cell",     "layout",   "packing", "material", "noise", "loading",
-                                           "dynamics", "measures", "output",  "test",     "seeds"};
+  const std::vector<std::string> wanted = {"cell",     "layout",   "packing",  "material", "noise", "loading",
+                                           "dynamics", "boundary", "measures", "output",   "test",  "seeds"};
   EXPECT_EQ(design.schema().section_names(), wanted);
 }
 
@@ -66,10 +67,10 @@ TEST(DesignFile, SurvivesAMove) {
   EXPECT_EQ(moved.design().layout.rows, 4);
 }
 
-bool is_study(const std::filesystem::path& path) {
+bool has_section(const std::filesystem::path& path, const std::string& section) {
   const auto entries = io::read_toml(path);
   return std::any_of(entries.begin(), entries.end(),
-                     [](const io::Entry& entry) { return entry.key.starts_with("study."); });
+                     [&](const io::Entry& entry) { return entry.key.starts_with(section + "."); });
 }
 
 TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
@@ -78,8 +79,10 @@ TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
     if (entry.path().extension() != ".toml") continue;
     ++found;
     const auto check = [&] {
-      if (is_study(entry.path()))
+      if (has_section(entry.path(), "study"))
         static_cast<void>(check_study(entry.path()));
+      else if (has_section(entry.path(), "calibrate"))
+        static_cast<void>(read_calibration(entry.path(), {}));
       else
         static_cast<void>(DesignFile(entry.path()).validate());
     };
