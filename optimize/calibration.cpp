@@ -82,10 +82,6 @@ std::string calibration_reference() {
   return schema.reference();
 }
 
-double voigt_stiffness_ratio(double poisson_ratio, double least) {
-  return std::max(least, (1.0 - 3.0 * poisson_ratio) / (1.0 + poisson_ratio));
-}
-
 json to_json(const CalibrationResult& result) {
   json targets = json::array(), points = json::array();
   for (const CalibrationTarget& t : result.targets)

@@ -92,9 +92,6 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
 /// Largest number of points a calibration may test.
 int most_points(const Calibration& calibration);
 
-/// Voigt's k_t/k_n for a two-dimensional Poisson ratio: (1 - 3 nu)/(1 + nu), at least `least`.
-double voigt_stiffness_ratio(double poisson_ratio, double least);
-
 /// schema "perfora.calibrate/1".
 nlohmann::json to_json(const CalibrationResult& result);
 

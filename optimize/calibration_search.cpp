@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "io/journal.h"
 #include "io/progress.h"
 #include "optimize/calibration.h"
-#include "optimize/evaluation.h"
+#include "optimize/elastic_fit.h"
 #include "optimize/study.h"
 #include "optimize/work_folder.h"
-#include "solver/elastic.h"
 #include "solver/mass.h"
 #include "solver/run.h"
 
@@ -25,11 +25,8 @@ using solver::MaterialTestKind;
 
 constexpr const char* own_files[] = {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
                                      "reachable.png", "confirmation.h5", "confirmation.png"};
-/// k_t/k_n: below, shear springs are gone and discs turn freely; above, nu is far below zero.
-constexpr double least_stiffness_ratio = 1e-3, largest_stiffness_ratio = 5.0;
 /// delta_t0/delta_n0: beyond these one of the two thresholds no longer matters (docs/theory.md, "Calibration").
 constexpr double least_shear_ratio = 1.0, largest_shear_ratio = 32.0;
-constexpr double nu_tolerance = 1e-5;
 /// Other zeta_max to try, nearest to the design's first.
 constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};
 /// The chart.
@@ -50,7 +47,7 @@ class Search {
   }
 
   CalibrationResult run() {
-    read_samples();
+    pack_samples();
     fit_elasticity();
     critical_normal_ = reference_stretch();
     bool whole = fit_strengths();
@@ -89,38 +86,11 @@ class Search {
     }
   }
 
-  void read_samples() {
-    const DesignFile sample = material_sample(*calibration_.start);
+  void pack_samples() {
     EvaluateOptions packing;
     packing.threads = options_.threads;
     packing.progress = options_.progress;
-    double lengths = 0.0;
-    std::int64_t bonds = 0;
-    for (int r = 0; r < keys_.replicates; ++r) {
-      const PackedDesign packed = pack_design(sample, packing, r);
-      if (!packed.periodic.quality.reached)
-        throw io::InputError(calibration_.start->schema().origin("packing.solid_fraction"),
-                             "the packing was not reached: " + packed.periodic.quality.reason, "",
-                             "lower packing.solid_fraction");
-      mean_diameter_ = mean_diameter_of(sample, packed.periodic);
-      solver::BondNetwork network = solver::make_bond_network(packed.clipped, packed.layout,
-                                                              sample.design().solver.material, {}, 1, mean_diameter_);
-      for (const double l : network.rest_length) lengths += l;
-      bonds += network.size();
-      networks_.push_back({std::move(network), packed.clipped.size(), packed.clipped.width, packed.clipped.height});
-    }
-    mean_bond_length_ = lengths / static_cast<double>(bonds);
-  }
-
-  /// Mean of the samples for k_n = 1, k_t = ratio: E/k_n and nu, two-dimensional.
-  std::pair<double, double> elasticity(double ratio) const {
-    double young = 0.0, poisson = 0.0;
-    for (const Sample& s : networks_) {
-      const solver::ElasticResponse e = solver::elastic_response(s.network, s.discs, s.width, s.height, 1.0, ratio);
-      young += e.moduli.isotropic_young / static_cast<double>(networks_.size());
-      poisson += e.moduli.isotropic_poisson / static_cast<double>(networks_.size());
-    }
-    return {young, poisson};
+    samples_.emplace(material_sample(*calibration_.start), keys_.replicates, packing);
   }
 
   void fit_elasticity() {
@@ -131,43 +101,30 @@ class Search {
       young /= 1.0 - keys_.poisson_ratio * keys_.poisson_ratio;
       poisson /= 1.0 - keys_.poisson_ratio;
     }
-    if (keys_.poisson_ratio > 0.0) ratio = stiffness_ratio_for(poisson);
-    const auto [unit_young, reached_poisson] = elasticity(ratio);
-    result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit_young : material.normal_stiffness;
+    if (keys_.poisson_ratio > 0.0) {
+      ratio = samples_->stiffness_ratio_for(poisson);
+      if (ratio == ElasticFit::least_ratio || ratio == ElasticFit::largest_ratio)
+        result_.not_met.push_back(fmt::format(
+            "poisson_ratio: {:.4f} (two-dimensional) is out of reach of these bonds, which give {:.4f} to {:.4f} for "
+            "k_t/k_n from {:.3g} to {:.3g}",
+            poisson, samples_->at(ElasticFit::largest_ratio).poisson, samples_->at(ElasticFit::least_ratio).poisson,
+            ElasticFit::largest_ratio, ElasticFit::least_ratio));
+    }
+    const UnitElasticity unit = samples_->at(ratio);
+    result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit.young : material.normal_stiffness;
     result_.found.tangential_stiffness = ratio * result_.found.normal_stiffness;
-    young_ = unit_young * result_.found.normal_stiffness;
+    young_ = unit.young * result_.found.normal_stiffness;
     io::log_info(
         fmt::format("elastic: k_t/k_n = {:.5g}, k_n = {:.5g} N/m give E = {:.5g} Pa, nu = {:.4f} (two-dimensional)",
-                    ratio, result_.found.normal_stiffness, young_, reached_poisson));
-  }
-
-  /// Bisection in log(k_t/k_n) from Voigt's value outwards; nu falls as the ratio grows.
-  double stiffness_ratio_for(double poisson) {
-    double low = least_stiffness_ratio, high = largest_stiffness_ratio;
-    const double largest = elasticity(low).second, least = elasticity(high).second;
-    if (poisson >= largest || poisson <= least) {
-      result_.not_met.push_back(fmt::format(
-          "poisson_ratio: {:.4f} (two-dimensional) is out of reach of these bonds, which give {:.4f} to {:.4f} for "
-          "k_t/k_n from {:.3g} to {:.3g}",
-          poisson, least, largest, high, low));
-      return poisson >= largest ? low : high;
-    }
-    double middle = std::clamp(voigt_stiffness_ratio(poisson, low), low, high);
-    constexpr int most = 60;
-    for (int k = 0; k < most; ++k) {
-      const double nu = elasticity(middle).second;
-      if (std::fabs(nu - poisson) < nu_tolerance) break;
-      (nu > poisson ? low : high) = middle;
-      middle = std::sqrt(low * high);
-    }
-    return middle;
+                    ratio, result_.found.normal_stiffness, young_, unit.poisson));
   }
 
   /// delta_n0 that all points are tested with: E delta_n0/<l> = wanted tensile strength (an aligned bond of mean
   /// length), as stated for the reference diameter.
   double reference_stretch() const {
-    const double factor = solver::threshold_factor(calibration_.start->design().solver.material, mean_diameter_);
-    return rounded(keys_.tensile_strength / young_ * mean_bond_length_ / factor);
+    const double factor =
+        solver::threshold_factor(calibration_.start->design().solver.material, samples_->mean_diameter());
+    return rounded(keys_.tensile_strength / young_ * samples_->mean_bond_length() / factor);
   }
 
   DesignFile design_with(const BondParameters& p) const {
@@ -362,20 +319,14 @@ class Search {
     result_.targets.push_back(std::move(target));
   }
 
-  struct Sample {
-    solver::BondNetwork network;
-    std::int32_t discs;
-    double width, height;
-  };
-
   const Calibration& calibration_;
   const CalibrationOptions& options_;
   const CalibrationKeys& keys_;
   std::chrono::steady_clock::time_point started_;
   std::unique_ptr<io::Journal> journal_;
   std::map<std::string, json> known_;
-  std::vector<Sample> networks_;
-  double mean_diameter_ = 0.0, mean_bond_length_ = 0.0, young_ = 0.0, critical_normal_ = 0.0;
+  std::optional<ElasticFit> samples_;
+  double young_ = 0.0, critical_normal_ = 0.0;
   CalibrationResult result_;
 };
 

@@ -1,0 +1,62 @@
+// What is here: see elastic_fit.h.
+#include "optimize/elastic_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/error.h"
+#include "solver/elastic.h"
+
+namespace perfora::optimize {
+
+double voigt_stiffness_ratio(double poisson_ratio) {
+  return (1.0 - 3.0 * poisson_ratio) / (1.0 + poisson_ratio);
+}
+
+ElasticFit::ElasticFit(const DesignFile& sample, int replicates, const EvaluateOptions& packing) {
+  double lengths = 0.0;
+  std::int64_t bonds = 0;
+  for (int r = 0; r < replicates; ++r) {
+    const PackedDesign packed = pack_design(sample, packing, r);
+    if (!packed.periodic.quality.reached)
+      throw io::InputError(sample.schema().origin("packing.solid_fraction"),
+                           "the packing was not reached: " + packed.periodic.quality.reason, "",
+                           "lower packing.solid_fraction");
+    mean_diameter_ = mean_diameter_of(sample, packed.periodic);
+    solver::BondNetwork network = solver::make_bond_network(packed.clipped, packed.layout,
+                                                            sample.design().solver.material, {}, 1, mean_diameter_);
+    for (const double l : network.rest_length) lengths += l;
+    bonds += network.size();
+    samples_.push_back({std::move(network), packed.clipped.size(), packed.clipped.width, packed.clipped.height});
+  }
+  mean_bond_length_ = lengths / static_cast<double>(bonds);
+}
+
+UnitElasticity ElasticFit::at(double stiffness_ratio) const {
+  UnitElasticity mean;
+  for (const Sample& s : samples_) {
+    const solver::ElasticResponse e =
+        solver::elastic_response(s.network, s.discs, s.width, s.height, 1.0, stiffness_ratio);
+    mean.young += e.moduli.isotropic_young / static_cast<double>(samples_.size());
+    mean.poisson += e.moduli.isotropic_poisson / static_cast<double>(samples_.size());
+  }
+  return mean;
+}
+
+double ElasticFit::stiffness_ratio_for(double poisson) const {
+  double low = least_ratio, high = largest_ratio;
+  if (poisson >= at(low).poisson) return low;
+  if (poisson <= at(high).poisson) return high;
+  constexpr double tolerance = 1e-5;  // of nu: far below the scatter of samples
+  constexpr int most_halvings = 60;
+  double middle = std::clamp(voigt_stiffness_ratio(poisson), low, high);
+  for (int k = 0; k < most_halvings; ++k) {
+    const double nu = at(middle).poisson;
+    if (std::fabs(nu - poisson) < tolerance) break;
+    (nu > poisson ? low : high) = middle;
+    middle = std::sqrt(low * high);
+  }
+  return middle;
+}
+
+}  // namespace perfora::optimize
