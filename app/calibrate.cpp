@@ -24,6 +24,7 @@ int calibrate(const CalibrateFlags& flags) {
   if (flags.resume && flags.common.force)
     throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
   const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
+  log_warnings(calibration.warnings);
   ProgressLine progress("calibration", flags.common.quiet);
   optimize::CalibrationOptions options;
   options.folder = output_or_default(flags.output, default_name(flags.file, "-calibration"));

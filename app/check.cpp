@@ -124,7 +124,6 @@ int check_study_file(const CheckFlags& flags) {
 int check_calibration(const CheckFlags& flags) {
   const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
   const optimize::DesignFile sample = optimize::material_sample(*calibration.start);
-  const std::vector<std::string> warnings = sample.validate();
   const optimize::DesignEstimate estimate = optimize::estimate_design(sample, flags.common.thread_count());
   constexpr int tests_a_point = 2, tests_at_the_end = 4;
   const int points = optimize::most_points(calibration);
@@ -138,7 +137,7 @@ int check_calibration(const CheckFlags& flags) {
                 {"bonds", estimate.bonds},
                 {"points", points},
                 {"tests", tests},
-                {"warnings", warnings}});
+                {"warnings", calibration.warnings}});
   } else {
     print_text(fmt::format("{}: a valid calibration\n", flags.file) +
                line("discs of a sample", with_thousands(static_cast<double>(estimate.discs))) +
@@ -146,7 +145,7 @@ int check_calibration(const CheckFlags& flags) {
                line("points, at most", fmt::format("{}", points)) +
                line("material tests, at most", fmt::format("{}", tests)));
   }
-  log_warnings(warnings);
+  log_warnings(calibration.warnings);
   return exit_ok;
 }
 

@@ -26,6 +26,9 @@ int test(const TestFlags& flags) {
   const optimize::DesignFile design(flags.material, flags.common.overrides());
   const auto kinds = optimize::wanted_tests(design);
   log_warnings(optimize::material_sample(design).validate());
+  const solver::BoundaryOptions& boundary = design.design().solver.boundary;
+  if (boundary.top_bottom != solver::TopBottom::periodic || boundary.sides != solver::Sides::periodic)
+    io::log_warning("material tests are periodic, with sides that follow a stress; [boundary] is not looked at");
   const auto output = output_or_default(flags.output, default_name(flags.material, "-test.h5"));
   check_new_output(output, flags.common.force);
 

@@ -129,6 +129,9 @@ class Schema {
   /// Where a key was last set: file and line, or "--set"; the default origin (file "default") otherwise.
   Origin origin(std::string_view full_name) const;
 
+  /// Says of every key what `other` says: for a copy of the options it is bound to.
+  void take_origins(const Schema& other) { origins_ = other.origins_; }
+
   /// The complete resolved configuration as TOML text (SI numbers, 17 digits, every key).
   std::string to_toml() const;
   /// The printed reference: a Markdown table a section.

@@ -71,7 +71,7 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
                          "the compressive strength is not above the tensile one", "more than tensile_strength",
                          "check both; bonds that break more easily in compression are not in this model");
   calibration.start = std::make_shared<DesignFile>(keys.design, of_design);
-  static_cast<void>(material_sample(*calibration.start));  // says what is wrong with the sample before work starts
+  calibration.warnings = material_sample(*calibration.start).validate();
   return calibration;
 }
 

@@ -35,6 +35,7 @@ struct Calibration {
   std::filesystem::path file;
   CalibrationKeys keys;
   std::shared_ptr<const DesignFile> start;
+  std::vector<std::string> warnings;
 };
 /// `overrides` of calibrate.* go to the calibration, others to the design. Throws io::InputError.
 Calibration read_calibration(const std::filesystem::path& path, const std::vector<std::string>& overrides);
@@ -84,9 +85,10 @@ struct CalibrationOptions {
 };
 
 /// k_t/k_n from nu and k_n from E by the elastic answer of the samples (a root and a division); delta_t0/delta_n0 from
-/// the ratio of strengths by a bracketed secant in logarithms, delta_n0 by proportion; then all tests once more with
-/// what was found. Every test is a line of DIR/journal.jsonl and never run twice. Writes journal.jsonl, material.toml
-/// (the design with the parameters found), result.json, reachable.csv. Throws io::InputError.
+/// the ratio of strengths by a bracketed secant in logarithms at thresholds that give nearly the wanted tensile
+/// strength, delta_n0 by proportion; then all tests once more with what was found. Every point of the search is a line
+/// of DIR/journal.jsonl and never tested twice. Writes journal.jsonl, material.toml (the design with the parameters
+/// found), result.json, reachable.csv. Throws io::InputError.
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options);
 
 /// Largest number of points a calibration may test.

@@ -49,8 +49,8 @@ class Search {
   CalibrationResult run() {
     pack_samples();
     fit_elasticity();
-    critical_normal_ = reference_stretch();
-    bool whole = fit_strengths();
+    if (!std::isfinite(young_)) return failed("the elastic answer of a sample did not converge");
+    bool whole = scale_thresholds() && fit_strengths();
     if (whole && keys_.chart) whole = make_chart();
     write_design();
     if (whole) whole = confirm();
@@ -97,10 +97,8 @@ class Search {
     const solver::MaterialOptions& material = calibration_.start->design().solver.material;
     double ratio = material.tangential_stiffness / material.normal_stiffness;
     double poisson = keys_.poisson_ratio, young = keys_.young_modulus;
-    if (keys_.reading == ElasticReading::plane_strain) {
-      young /= 1.0 - keys_.poisson_ratio * keys_.poisson_ratio;
-      poisson /= 1.0 - keys_.poisson_ratio;
-    }
+    const bool plane_strain = keys_.reading == ElasticReading::plane_strain;
+    if (plane_strain) poisson /= 1.0 - keys_.poisson_ratio;
     if (keys_.poisson_ratio > 0.0) {
       ratio = samples_->stiffness_ratio_for(poisson);
       if (ratio == ElasticFit::least_ratio || ratio == ElasticFit::largest_ratio)
@@ -111,6 +109,8 @@ class Search {
             ElasticFit::largest_ratio, ElasticFit::least_ratio));
     }
     const UnitElasticity unit = samples_->at(ratio);
+    const double in_space = plane_strain_poisson_ratio(unit.poisson);
+    if (plane_strain) young /= 1.0 - in_space * in_space;
     result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit.young : material.normal_stiffness;
     result_.found.tangential_stiffness = ratio * result_.found.normal_stiffness;
     young_ = unit.young * result_.found.normal_stiffness;
@@ -127,9 +127,29 @@ class Search {
     return rounded(keys_.tensile_strength / young_ * samples_->mean_bond_length() / factor);
   }
 
+  /// One point at reference_stretch(); its tensile strength says how far off that was. The ratio of strengths hangs a
+  /// little on the strains reached, so the search is done at the right ones. False: stopped.
+  bool scale_thresholds() {
+    const solver::MaterialOptions& material = calibration_.start->design().solver.material;
+    critical_normal_ = reference_stretch();
+    const double ratio = material.critical_shear_displacement / material.critical_normal_stretch;
+    const StrengthPoint* point =
+        test(std::clamp(ratio, least_shear_ratio, largest_shear_ratio), material.rupture_delay, false);
+    if (point == nullptr) return false;
+    if (point->tensile.mean > 0.0)
+      critical_normal_ = rounded(critical_normal_ * keys_.tensile_strength / point->tensile.mean);
+    result_.points.clear();  // of other thresholds
+    return true;
+  }
+
+  CalibrationResult failed(const std::string& reason) {
+    result_.status = solver::RunStatus::failed;
+    result_.reason = reason;
+    return std::move(result_);
+  }
+
   DesignFile design_with(const BondParameters& p) const {
-    DesignFile design =
-        DesignFile::from_toml(calibration_.start->schema().to_toml(), calibration_.start->path().string());
+    DesignFile design = calibration_.start->clone();
     solver::MaterialOptions& material = design.design().solver.material;
     material.normal_stiffness = p.normal_stiffness;
     material.tangential_stiffness = p.tangential_stiffness;
@@ -293,13 +313,17 @@ class Search {
     const DesignFile design = design_with(result_.found);
     result_.confirmation = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression,
                                               MaterialTestKind::shear, MaterialTestKind::oedometric});
-    if (result_.confirmation.status == solver::RunStatus::stopped) return false;
+    if (result_.confirmation.status == solver::RunStatus::stopped || solver::stop_requested()) return false;
     write_material_tests(options_.folder / "confirmation.h5", design, result_.confirmation, options_.command_line);
     const std::string suffix = keys_.reading == ElasticReading::plane_strain ? "_plane_strain" : "";
     compare("young_modulus", "young_modulus" + suffix, keys_.young_modulus);
     compare("poisson_ratio", "poisson_ratio" + suffix, keys_.poisson_ratio);
     compare("tensile_strength", "tensile_strength", keys_.tensile_strength);
     compare("compressive_strength", "compressive_strength", keys_.compressive_strength);
+    if (result_.confirmation.status == solver::RunStatus::failed) {
+      result_.status = solver::RunStatus::failed;
+      result_.reason = "a test of the material found gave no strength: " + result_.confirmation.reason;
+    }
     return true;
   }
 
@@ -313,8 +337,8 @@ class Search {
                                   [&](const std::string& text) { return text.starts_with(name); });
     if (!target.met && !told)
       result_.not_met.push_back(
-          fmt::format("{}: {:.4g} was reached where {:.4g} was wanted ({:+.1f} %); scatter of the "
-                      "samples: raise calibrate.replicates or test.size",
+          fmt::format("{}: {:.4g} was reached where {:.4g} was wanted ({:+.1f} %); "
+                      "more calibrate.replicates, a larger test.size or a wider tolerance may help",
                       name, target.reached, wanted, 100.0 * (target.reached / wanted - 1.0)));
     result_.targets.push_back(std::move(target));
   }

@@ -46,4 +46,12 @@ DesignFile DesignFile::from_toml(const std::string& text, const std::string& nam
   return result;
 }
 
+DesignFile DesignFile::clone() const {
+  DesignFile copy;
+  *copy.design_ = *design_;
+  copy.schema_->take_origins(*schema_);
+  copy.path_ = path_;
+  return copy;
+}
+
 }  // namespace perfora::optimize

@@ -49,6 +49,9 @@ class DesignFile {
   /// From TOML text, such as schema().to_toml() gives; `name` stands for the file in messages.
   static DesignFile from_toml(const std::string& text, const std::string& name);
 
+  /// An independent copy, with the origins of its values.
+  DesignFile clone() const;
+
   Design& design() { return *design_; }
   const Design& design() const { return *design_; }
   io::Schema& schema() { return *schema_; }

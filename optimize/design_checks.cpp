@@ -167,7 +167,8 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
       warnings.push_back(fmt::format(
           "the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm: strength is kept by scaling the "
           "critical "
-          "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (about 1.6 mm at the "
+          "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (5 to 6 mm for Table "
+          "1 at the "
           "reference) grow {:.2f} times as well{}",
           millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter), ratio, consequence));
       break;

@@ -3,11 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/error.h"
 #include "solver/elastic.h"
 
 namespace perfora::optimize {
+namespace {
+
+constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 double voigt_stiffness_ratio(double poisson_ratio) {
   return (1.0 - 3.0 * poisson_ratio) / (1.0 + poisson_ratio);
@@ -29,6 +35,9 @@ ElasticFit::ElasticFit(const DesignFile& sample, int replicates, const EvaluateO
     bonds += network.size();
     samples_.push_back({std::move(network), packed.clipped.size(), packed.clipped.width, packed.clipped.height});
   }
+  if (bonds == 0)
+    throw io::InputError(sample.schema().origin("material.horizon"), "no two discs are near enough to be bonded", "",
+                         "raise the horizon or the solid fraction");
   mean_bond_length_ = lengths / static_cast<double>(bonds);
 }
 
@@ -37,6 +46,7 @@ UnitElasticity ElasticFit::at(double stiffness_ratio) const {
   for (const Sample& s : samples_) {
     const solver::ElasticResponse e =
         solver::elastic_response(s.network, s.discs, s.width, s.height, 1.0, stiffness_ratio);
+    if (e.status != solver::ElasticStatus::converged) return {not_reached, not_reached};
     mean.young += e.moduli.isotropic_young / static_cast<double>(samples_.size());
     mean.poisson += e.moduli.isotropic_poisson / static_cast<double>(samples_.size());
   }

@@ -17,13 +17,14 @@ struct UnitElasticity {
 /// Solid samples of a material, bonded, whose elastic constants are asked for many stiffness ratios.
 class ElasticFit {
  public:
-  /// Packs `replicates` samples of `sample` (material_sample). Throws io::InputError when a packing is not reached.
+  /// Packs `replicates` samples of `sample` (material_sample). Throws io::InputError when a packing is not reached or
+  /// nothing is bonded.
   ElasticFit(const DesignFile& sample, int replicates, const EvaluateOptions& packing);
 
   /// k_t/k_n from here to there: below, shear springs are gone and discs turn freely; above, nu is far below zero.
   static constexpr double least_ratio = 1e-3, largest_ratio = 5.0;
 
-  /// One linear solution a sample.
+  /// One linear solution a sample; NaN where one did not converge.
   UnitElasticity at(double stiffness_ratio) const;
   /// k_t/k_n for a two-dimensional nu, by bisection in logarithms from Voigt's value on: nu falls as the ratio grows.
   /// Beyond what can be reached: the nearer end of the range.

@@ -146,9 +146,8 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   estimate.discs = std::llround(static_cast<double>(discs.count) * solid);
   const double density = static_cast<double>(discs.count) / cell;
   const double cut = bonds_cut_by_edges(layout, design.solver.boundary, density, estimate.horizon_radius);
-  estimate.bonds_per_disc =
-      std::max(0.0, expected_bonds_per_disc(layout, density, estimate.horizon_radius) -
-                        2.0 * cut / std::max(1.0, static_cast<double>(estimate.discs)));
+  estimate.bonds_per_disc = std::max(0.0, expected_bonds_per_disc(layout, density, estimate.horizon_radius) -
+                                              2.0 * cut / std::max(1.0, static_cast<double>(estimate.discs)));
   estimate.bonds = std::llround(0.5 * estimate.bonds_per_disc * static_cast<double>(estimate.discs));
   estimate_steps(design, layout, discs, estimate);
   estimate_resources(design, threads, estimate);

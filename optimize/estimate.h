@@ -8,8 +8,8 @@
 
 namespace perfora::optimize {
 
-/// Expected numbers of one evaluation. Discs and bonds are good to a few per cent, steps to some twenty per cent, seconds
-/// to a factor of two.
+/// Expected numbers of one evaluation. Discs and bonds are good to a few per cent, steps to some twenty per cent,
+/// seconds to a factor of two.
 struct DesignEstimate {
   std::int64_t perforations = 0;
   std::int64_t discs = 0;  ///< left by the perforations
@@ -33,8 +33,8 @@ DesignEstimate estimate_design(const DesignFile& design, int threads);
 /// covariance; lens area of each hole), minus the disc itself.
 double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double density, double radius);
 
-/// Bonds that edges with no periodic image cut: of random pairs at distances up to r, (2/3) density^2 r^3 cross a line of
-/// unit length, here the parts of the edges that lie in the solid.
+/// Bonds that edges with no periodic image cut: of random pairs at distances up to r, (2/3) density^2 r^3 cross a line
+/// of unit length, here the parts of the edges that lie in the solid.
 double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,
                           double density, double radius);
 

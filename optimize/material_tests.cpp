@@ -41,10 +41,10 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
       }
     }
   };
-  std::vector<std::thread> others;
+  std::vector<std::jthread> others;
   for (int t = 1; t < std::min<int>(threads, static_cast<int>(count)); ++t) others.emplace_back(run);
   run();
-  for (std::thread& thread : others) thread.join();
+  for (std::jthread& thread : others) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -57,11 +57,9 @@ struct ByKind {
   }
 };
 
-/// Mean of those that were reached.
-double mean_of(double a, double b) {
-  if (!std::isfinite(a)) return b;
-  if (!std::isfinite(b)) return a;
-  return 0.5 * (a + b);
+/// The tension test's value; the compression test's where there was none.
+double first_of(double tension, double compression) {
+  return std::isfinite(tension) ? tension : compression;
 }
 
 std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, int replicates) {
@@ -71,10 +69,10 @@ std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, i
   using Kind = MaterialTestKind;
   using Result = MaterialTestResult;
   const auto young = [](const ByKind& s) {
-    return mean_of(s.value(Kind::tension, &Result::modulus), s.value(Kind::compression, &Result::modulus));
+    return first_of(s.value(Kind::tension, &Result::modulus), s.value(Kind::compression, &Result::modulus));
   };
   const auto poisson = [](const ByKind& s) {
-    return mean_of(s.value(Kind::tension, &Result::lateral_ratio), s.value(Kind::compression, &Result::lateral_ratio));
+    return first_of(s.value(Kind::tension, &Result::lateral_ratio), s.value(Kind::compression, &Result::lateral_ratio));
   };
   const std::vector<std::pair<const char*, std::function<double(const ByKind&)>>> list = {
       {"young_modulus", young},
@@ -108,9 +106,9 @@ std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, i
   return statistics;
 }
 
-/// failed before stopped before completed, with the first reason.
+/// stopped before failed before completed, with the first reason.
 void sum_up(MaterialTests& tests) {
-  for (const solver::RunStatus status : {solver::RunStatus::failed, solver::RunStatus::stopped})
+  for (const solver::RunStatus status : {solver::RunStatus::stopped, solver::RunStatus::failed})
     for (const MaterialTestRun& run : tests.runs)
       if (run.result.status == status) {
         tests.status = status;
@@ -132,9 +130,14 @@ double plane_strain_young_modulus(double two_dimensional, double two_dimensional
 }
 
 DesignFile material_sample(const DesignFile& design) {
-  DesignFile sample = DesignFile::from_toml(design.schema().to_toml(), design.path().string());
+  DesignFile sample = design.clone();
   Design& options = sample.design();
   options.layout.family = geometry::LayoutFamily::none;
+  // Keys of a compression that a test does not look at must not get in its way.
+  options.solver.boundary = {};
+  options.solver.measures = {};
+  options.solver.output = {};
+  options.solver.loading.until = options.solver.measures.plateau_end;
   if (!options.packing.file.empty()) return sample;
   const double size = options.solver.test.size;
   const double least = std::max(fewest_discs_across, fewest_horizons_across * options.solver.material.horizon) *

@@ -30,10 +30,10 @@ struct MaterialTestRun {
 };
 
 /// All tests of a material. Statistics are over the replicates; names and units:
-/// young_modulus, poisson_ratio (two-dimensional, from tension and compression), shear_modulus, oedometric_modulus,
-/// tensile_strength, compressive_strength, shear_strength, oedometric_strength, strength_ratio
-/// (compressive/tensile), fracture_energy (J/m2), characteristic_length (E G/sigma_t^2, m), and the plane-strain reading young_modulus_plane_strain,
-/// poisson_ratio_plane_strain (docs/theory.md, "Material tests").
+/// young_modulus, poisson_ratio (two-dimensional, from tension; from compression where there is no tension test),
+/// shear_modulus, oedometric_modulus, tensile_strength, compressive_strength, shear_strength, oedometric_strength,
+/// strength_ratio (compressive/tensile), fracture_energy (J/m2), characteristic_length (E G/sigma_t^2, m), and the
+/// plane-strain reading young_modulus_plane_strain, poisson_ratio_plane_strain (docs/theory.md, "Material tests").
 struct MaterialTests {
   solver::RunStatus status = solver::RunStatus::completed;
   std::string reason;

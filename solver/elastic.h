@@ -47,7 +47,7 @@ struct ElasticOptions {
 
 enum class ElasticStatus { converged, not_converged };
 
-/// The answer of a block. Without bonds all stiffness is zero and the moduli are NaN.
+/// The answer of a block. Without bonds all stiffness is zero, and moduli are zero or NaN.
 struct ElasticResponse {
   ElasticStatus status = ElasticStatus::converged;
   PlaneStiffness stiffness{};         ///< with every disc in equilibrium, symmetric to the tolerance

@@ -137,11 +137,14 @@ double threshold_factor(const MaterialOptions& material, double mean_diameter) {
   return 1.0;
 }
 
+double voigt_modulus(const MaterialOptions& material, double bond_density) {
+  return bond_density * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
+}
+
 LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options) {
   LoadingEstimate e;
   // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
   // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule (docs/theory.md).
-  constexpr double network_share = 0.85;  // of Voigt that a relaxed packing keeps
   e.modulus = network_share * block.voigt_modulus * (1.0 - block.porosity);
   e.bulk_density = block.bulk_density;
   e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
@@ -165,8 +168,7 @@ LoadingEstimate estimate_loading(const BondNetwork& network, const MassPropertie
   }
   const StrengthStatistics strength = strength_statistics(network);
   BlockMeans block;
-  block.voigt_modulus =
-      square_lengths / (width * height) * (3.0 * material.normal_stiffness + material.tangential_stiffness) / 8.0;
+  block.voigt_modulus = voigt_modulus(material, square_lengths / (width * height));
   block.porosity = porosity;
   block.bulk_density = masses.total / (width * height);
   block.mean_bond_length = network.size() > 0 ? lengths / static_cast<double>(network.size()) : mean_diameter;

@@ -34,6 +34,11 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
 /// neighbours, both times (1 + c) for Cundall damping; the least over all discs.
 double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping);
 
+/// Share of Voigt's C11 that a relaxed packing keeps (0.82 to 0.96 for H = 2 to 4, docs/verification.md).
+inline constexpr double network_share = 0.85;
+/// Voigt's C11, Pa, of bonds with sum l^2/area = `bond_density` (-).
+double voigt_modulus(const MaterialOptions& material, double bond_density);
+
 /// What the automatic loading rate rests on.
 struct LoadingEstimate {
   double modulus = 0.0;       ///< effective C11 of the block, Pa

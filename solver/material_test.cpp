@@ -15,10 +15,13 @@ namespace perfora::solver {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int rows_to_yield = 100;     // history rows up to the estimated yield strain
-constexpr double longest_test = 10.0;  // times the estimated yield strain: no peak until then is a result, too
-constexpr double slope_from = 0.1, slope_to = 0.4;  // of the strength: above the first waves, below the first damage
-constexpr double separated = 0.05;                  // of the strength: a crack has crossed the sample
+constexpr int rows_to_yield = 100;      // history rows up to the estimated yield strain
+constexpr double longest_test = 10.0;   // times the estimated yield strain: no peak until then is a result, too
+constexpr double largest_strain = 0.3;  // of a test: beyond it nothing is a solid any more
+constexpr double least_peak = 0.5;      // of the estimated yield strain: a maximum before it is a wave of the start
+constexpr double undamaged = 1e-3;      // share of the work that damage has taken: up to there moduli are elastic
+constexpr double slope_from = 0.05, slope_to = 0.4;  // of the strength: above the first waves, below the first damage
+constexpr double separated = 0.05;                   // of the strength: a crack has crossed the sample
 constexpr double longest_separation =
     4.0;                                // times the strain of the peak: a crack that has not crossed by then is bridged
 constexpr double crack_link = 1.0;      // times <d>: broken bonds of one crack lie closer than discs do
@@ -26,7 +29,6 @@ constexpr double shortest_crack = 3.0;  // times r_H: shorter ones are single fl
 /// The servo takes the lateral stress back this many times faster than a wave crosses the sample, so that it lags by
 /// nu/(transits x this) of the strength (0.04 % at 25 transits).
 constexpr double servo_speed = 20.0;
-constexpr double network_share = 0.85;  // of Voigt's C11 that a relaxed packing keeps, as in mass.cpp
 
 double poisson_of_voigt(const MaterialOptions& material) {
   return (material.normal_stiffness - material.tangential_stiffness) /
@@ -87,13 +89,16 @@ double slope(const std::vector<double>& x, const std::vector<double>& y, std::si
   return xx > 0.0 ? xy / xx : nan;
 }
 
-/// modulus and lateral_ratio from the rows between 10 % and 40 % of the strength.
-void read_moduli(MaterialTestResult& result) {
+/// modulus and lateral_ratio from the rows between 5 % and 40 % of the largest stress, as far as damage has taken no
+/// share of the work.
+void read_moduli(MaterialTestResult& result, double largest_stress) {
   const MaterialCurve& curve = result.curve;
   std::size_t first = 0;
-  while (first < curve.stress.size() && curve.stress[first] < slope_from * result.strength) ++first;
+  while (first < curve.stress.size() && curve.stress[first] < slope_from * largest_stress) ++first;
   std::size_t last = first;
-  while (last + 1 < curve.stress.size() && curve.stress[last + 1] < slope_to * result.strength) ++last;
+  while (last + 1 < curve.stress.size() && curve.stress[last + 1] < slope_to * largest_stress &&
+         curve.damage[last + 1] <= undamaged * curve.work[last + 1])
+    ++last;
   result.modulus = result.lateral_ratio = nan;
   constexpr std::size_t fewest_rows = 4;
   if (last < first + fewest_rows || last >= curve.stress.size()) return;
@@ -104,7 +109,13 @@ void read_moduli(MaterialTestResult& result) {
     result.lateral_ratio = slope(curve.stress, curve.lateral_stress, first, last);
 }
 
-void add_row(MaterialTestKind kind, Simulation& s, double width, MaterialCurve& curve) {
+/// Everything a curve holds, for work that all columns share.
+constexpr std::vector<double> MaterialCurve::*curve_columns[] = {
+    &MaterialCurve::strain, &MaterialCurve::stress, &MaterialCurve::lateral_strain, &MaterialCurve::lateral_stress,
+    &MaterialCurve::damage, &MaterialCurve::work,   &MaterialCurve::cundall,        &MaterialCurve::broken_bonds};
+
+/// Adds a row and returns what the ledger leaves over, J/m.
+double add_row(MaterialTestKind kind, Simulation& s, double width, MaterialCurve& curve) {
   const Virial stress = s.row_stress();
   const Ledger energy = s.ledger();
   curve.strain.push_back(strain_of(kind, s));
@@ -116,6 +127,7 @@ void add_row(MaterialTestKind kind, Simulation& s, double width, MaterialCurve& 
   curve.cundall.push_back(energy.cundall);
   curve.broken_bonds.push_back(static_cast<double>(s.events().size()));
   s.reset_row();
+  return std::fabs(energy.external_work - energy.sum());
 }
 
 struct Ready {
@@ -146,8 +158,7 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
     squares += l * l;
   }
   const double area = sample.width * sample.height;
-  const double modulus = network_share * squares / area *
-                         (3.0 * options.material.normal_stiffness + options.material.tangential_stiffness) / 8.0;
+  const double modulus = network_share * voigt_modulus(options.material, squares / area);
   const double transit = sample.height / std::sqrt(modulus * area / input.masses.total);
   ready.yield_strain = estimated_yield_strain(request.kind, options, request.mean_diameter,
                                               lengths / static_cast<double>(input.network.size()));
@@ -166,22 +177,21 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
   return ready;
 }
 
-void read_results(const MaterialTestRequest& request, const Simulation& s, MaterialTestResult& result) {
+void read_results(const MaterialTestRequest& request, const Simulation& s, double residual, bool peaked,
+                  MaterialTestResult& result) {
   const MaterialCurve& curve = result.curve;
   const auto peak = std::max_element(curve.stress.begin(), curve.stress.end());
-  result.strength = *peak;
-  result.peak_strain = curve.strain[static_cast<std::size_t>(peak - curve.stress.begin())];
-  read_moduli(result);
+  result.strength = peaked ? *peak : nan;
+  result.peak_strain = peaked ? curve.strain[static_cast<std::size_t>(peak - curve.stress.begin())] : nan;
+  read_moduli(result, *peak);
   result.steps = s.steps();
   result.events = s.events();
   result.broken_bonds = static_cast<std::int64_t>(result.events.size());
   result.broken_in_tension = std::count_if(result.events.begin(), result.events.end(),
                                            [](const BreakEvent& e) { return e.mode == BreakMode::tension; });
-  const Ledger energy = s.ledger();
-  const double largest_work = *std::max_element(curve.work.begin(), curve.work.end());
-  result.energy_residual = std::fabs(energy.external_work - energy.sum()) / largest_work;
+  result.energy_residual = residual / *std::max_element(curve.work.begin(), curve.work.end());
   result.crack_length = result.fracture_energy = nan;
-  if (request.kind != MaterialTestKind::tension) return;
+  if (request.kind != MaterialTestKind::tension || !peaked) return;
   result.crack_length = projected_crack_length(
       result.events, request.sample->width, request.sample->height, 0, crack_link * request.mean_diameter,
       shortest_crack * request.options.material.horizon * request.mean_diameter);
@@ -233,17 +243,22 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
   Ready ready = make_ready(request, result);
   Simulation simulation(std::move(ready.input));
   const double past_peak = request.options.test.past_peak;
-  const double longest = longest_test * ready.yield_strain;
-  double strength = 0.0, peak_strain = 0.0;
+  const double longest = std::min(largest_strain, longest_test * ready.yield_strain);
+  double strength = 0.0, peak_strain = 0.0, residual = 0.0;
+  // Confined compression need not have a peak; the other tests without one have failed.
+  bool peaked = false;
   result.reason = fmt::format("no peak up to strain {:.3g}", longest);
-  result.status = RunStatus::failed;
-  add_row(request.kind, simulation, request.sample->width, result.curve);
+  result.status = request.kind == MaterialTestKind::oedometric ? RunStatus::completed : RunStatus::failed;
+  const double width = request.sample->width;
+  add_row(request.kind, simulation, width, result.curve);
   for (double strain = 0.0; strain < longest;) {
     for (std::int64_t k = 0; k < ready.steps_per_row; ++k) simulation.step();
-    add_row(request.kind, simulation, request.sample->width, result.curve);
+    residual = std::max(residual, add_row(request.kind, simulation, width, result.curve));
     strain = result.curve.strain.back();
     const double stress = result.curve.stress.back();
     if (!std::isfinite(stress)) {
+      for (const auto column : curve_columns) (result.curve.*column).pop_back();
+      result.status = RunStatus::failed;
       result.reason = fmt::format("unstable step: stress is not a number at strain {:.3g}", strain);
       break;
     }
@@ -251,15 +266,12 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
       strength = stress;
       peak_strain = strain;
     }
-    if (separates(request.kind) && stress < separated * strength) {
-      result.status = RunStatus::completed;
-      result.reason = "the sample is in two";
-      break;
-    }
     const double enough = separates(request.kind) ? longest_separation : past_peak;
-    if (strain >= enough * peak_strain) {
+    const bool in_two = separates(request.kind) && stress < separated * strength;
+    if (strain > least_peak * ready.yield_strain && (in_two || strain >= enough * peak_strain)) {
+      peaked = true;
       result.status = RunStatus::completed;
-      result.reason = fmt::format("{:.3g} times the strain of the peak", enough);
+      result.reason = in_two ? "the sample is in two" : fmt::format("{:.3g} times the strain of the peak", enough);
       break;
     }
     if (stop_requested()) {
@@ -269,7 +281,7 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
     }
     if (request.progress) request.progress(strain / longest);
   }
-  read_results(request, simulation, result);
+  read_results(request, simulation, residual, peaked, result);
   result.frame = take_frame(simulation, ready.original_bonds);
   return result;
 }

@@ -53,7 +53,7 @@ struct MaterialTestResult {
   double lateral_ratio = 0.0;    ///< tension, compression: Poisson's ratio; oedometric: lateral over axial stress
   double fracture_energy = 0.0;  ///< tension: damage dissipation per crack length, J/m2
   double crack_length = 0.0;     ///< tension: m, across the loading
-  double energy_residual = 0.0;
+  double energy_residual = 0.0;  ///< largest |external work - all parts| of all rows over the largest work
   std::int64_t steps = 0, broken_bonds = 0, broken_in_tension = 0;
   double rate = 0.0, time_step = 0.0;
   MaterialCurve curve;
@@ -61,10 +61,11 @@ struct MaterialTestResult {
   std::vector<BreakEvent> events;
 };
 
-/// Runs one test: tension and shear until the stress has fallen to a twentieth of the strength (at most to four times
-/// the strain of the peak), the others to options.test.past_peak times the strain of the peak. Sequential; several may
-/// run side by side in threads. Numerical trouble and a test without a peak are a status. Throws io::InputError when
-/// nothing is bonded.
+/// A test without a peak (up to ten times the estimated yield strain, at most 0.3) has failed, but for the oedometric
+/// one, which need not have one. Runs one test: tension and shear until the stress has fallen to a twentieth of the
+/// strength (at most to four times the strain of the peak), the others to options.test.past_peak times the strain of
+/// the peak. Sequential; several may run side by side in threads. Numerical trouble and a test without a peak are a
+/// status. Throws io::InputError when nothing is bonded.
 MaterialTestResult run_material_test(const MaterialTestRequest& request);
 
 /// Strain at which a bond of the mean length first yields in its worst direction while the sample deforms affinely,

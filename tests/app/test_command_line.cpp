@@ -283,7 +283,7 @@ TEST_F(CommandLine, TestOfAMaterialGivesRecordFileAndPicture) {
 }
 
 // Killed after its first points and resumed, a calibration ends with the numbers of one that was not; only the first
-// pair of strengths is asked for, coarsely, so that it takes seconds. E and nu are met: they are solved for.
+// pair of strengths is asked for, coarsely, so that it takes seconds. E is met: it is solved for.
 TEST_F(CommandLine, CalibrationResumesFromItsJournal) {
   std::ofstream(folder_ / "c.toml") << "[calibrate]\ndesign = \"d.toml\"\nyoung_modulus = \"1 GPa\"\n"
                                        "poisson_ratio = 0.2\ntensile_strength = \"0.5 MPa\"\n"

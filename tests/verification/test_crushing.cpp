@@ -40,6 +40,9 @@ void PrintTo(const PeakCase& c, std::ostream* out) {
   *out << c.rows << " x " << c.rows << " holes, seed " << c.seed;
 }
 
+/// What does not hold so far (docs/verification.md) went up to 7 %; more than this would be something else.
+constexpr double largest_known = 0.15;
+
 class FirstPeak : public ::testing::TestWithParam<PeakCase> {
  protected:
   static std::string at() { return ", " + ::testing::PrintToString(GetParam()); }
@@ -71,14 +74,17 @@ TEST_P(FirstPeak, DoesNotHangOnTheStep) {
 TEST_P(FirstPeak, DoesNotHangOnTheRate) {
   solver::SolverOptions options = to_the_peak();
   options.loading.transits *= 2.0;
-  if (!holds_so_far("change of the first peak at half the rate" + at(), change(options), 0.02))
-    GTEST_SKIP() << known_not_to_hold;
+  const double found = change(options);
+  EXPECT_LT(std::fabs(found), largest_known) << "worse than what is known not to hold";
+  if (!holds_so_far("change of the first peak at half the rate" + at(), found, 0.02)) GTEST_SKIP() << known_not_to_hold;
 }
 
 TEST_P(FirstPeak, DoesNotHangOnMassScaling) {
   solver::SolverOptions options = to_the_peak();
   options.dynamics.mass = solver::MassScaling::physical;
-  if (!holds_so_far("change of the first peak with physical masses" + at(), change(options), 0.02))
+  const double found = change(options);
+  EXPECT_LT(std::fabs(found), largest_known) << "worse than what is known not to hold";
+  if (!holds_so_far("change of the first peak with physical masses" + at(), found, 0.02))
     GTEST_SKIP() << known_not_to_hold;
 }
 INSTANTIATE_TEST_SUITE_P(, FirstPeak,
