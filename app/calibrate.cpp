@@ -13,6 +13,9 @@ namespace perfora::app {
 
 namespace {
 
+/// Fewer points than this make no chart.
+constexpr std::size_t fewest_points = 3;
+
 struct CalibrateFlags {
   CommonFlags common;
   std::string file, output;
@@ -34,10 +37,11 @@ int calibrate(const CalibrateFlags& flags) {
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
-  progress.finish(result.reason);
+  progress.finish(fmt::format("{}, {}", result.reason, duration_text(result.seconds)));
   const auto record = optimize::to_json(result);
   if (result.status != solver::RunStatus::stopped) {
-    report::plot_reachable(options.folder / "result.json", options.folder / "reachable.png");
+    if (result.points.size() > fewest_points)
+      report::plot_reachable(options.folder / "result.json", options.folder / "reachable.png");
     if (std::filesystem::exists(options.folder / "confirmation.h5"))
       report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
   }

@@ -23,6 +23,7 @@ constexpr int most_replicates = 1000;
 
 int test(const TestFlags& flags) {
   flags.common.apply();
+  remove_stop_handlers();
   const optimize::DesignFile design(flags.material, flags.common.overrides());
   const auto kinds = optimize::wanted_tests(design);
   log_warnings(optimize::material_sample(design).validate());
@@ -30,7 +31,9 @@ int test(const TestFlags& flags) {
   if (boundary.top_bottom != solver::TopBottom::periodic || boundary.sides != solver::Sides::periodic)
     io::log_warning("material tests are periodic, with sides that follow a stress; [boundary] is not looked at");
   const auto output = output_or_default(flags.output, default_name(flags.material, "-test.h5"));
+  const auto picture = std::filesystem::path(output).replace_extension(".png");
   check_new_output(output, flags.common.force);
+  check_new_output(picture, flags.common.force);
 
   ProgressLine progress("material tests", flags.common.quiet);
   optimize::MaterialTestsOptions options;
@@ -40,18 +43,17 @@ int test(const TestFlags& flags) {
   const optimize::MaterialTests tests = optimize::test_material(design, kinds, options);
   progress.finish(fmt::format("{}, {}", tests.reason, duration_text(tests.performance.seconds)));
   const auto record = optimize::to_json(tests);
-  const bool whole = tests.status != solver::RunStatus::stopped && !tests.runs.empty();
+  const bool whole = !tests.runs.empty();
   if (whole) {
     optimize::write_material_tests(output, design, tests, command_line());
-    report::plot_material_tests(output, std::filesystem::path(output).replace_extension(".png"));
+    report::plot_material_tests(output, picture);
   }
   if (flags.common.json)
     print_json(record);
   else
     print_text(summary_text(record));
-  if (tests.status == solver::RunStatus::stopped) io::log_warning("stopped; nothing was written");
   if (tests.status == solver::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);
-  if (whole) io::log_info("written: " + output.string());
+  if (whole) io::log_info("written: " + output.string() + ", " + picture.string());
   return exit_code_of(tests.status);
 }
 

@@ -44,6 +44,11 @@ json statistic_json(const Statistic& s) {
   return {{"mean", number(s.mean)}, {"standard_deviation", number(s.standard_deviation)}, {"count", s.count}};
 }
 
+/// null for what was not found yet.
+json positive(double value) {
+  return value > 0.0 ? number(value) : json(nullptr);
+}
+
 }  // namespace
 
 Calibration read_calibration(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
@@ -64,7 +69,7 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
     throw io::InputError({path.string(), 0, "calibrate.design"}, "no design is named", "the path of a design file",
                          "add design = \"solid.toml\" to [calibrate]");
   if (!(keys.tensile_strength > 0.0))
-    throw io::InputError(schema.origin("calibrate.tensile_strength"), "no tensile strength is given",
+    throw io::InputError({path.string(), 0, "calibrate.tensile_strength"}, "no tensile strength is given",
                          "a positive stress", "add tensile_strength = \"3 MPa\" or the like to [calibrate]");
   if (keys.compressive_strength > 0.0 && keys.compressive_strength <= keys.tensile_strength)
     throw io::InputError(schema.origin("calibrate.compressive_strength"),
@@ -98,11 +103,11 @@ json to_json(const CalibrationResult& result) {
           {"reason", result.reason},
           {"results_version", results_version},
           {"found",
-           {{"normal_stiffness", number(result.found.normal_stiffness)},
-            {"tangential_stiffness", number(result.found.tangential_stiffness)},
-            {"critical_normal_stretch", number(result.found.critical_normal_stretch)},
-            {"critical_shear_displacement", number(result.found.critical_shear_displacement)},
-            {"rupture_delay", number(result.found.rupture_delay)}}},
+           {{"normal_stiffness", positive(result.found.normal_stiffness)},
+            {"tangential_stiffness", positive(result.found.tangential_stiffness)},
+            {"critical_normal_stretch", positive(result.found.critical_normal_stretch)},
+            {"critical_shear_displacement", positive(result.found.critical_shear_displacement)},
+            {"rupture_delay", positive(result.found.rupture_delay)}}},
           {"targets", targets},
           {"not_met", result.not_met},
           {"points", points},

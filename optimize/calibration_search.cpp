@@ -34,6 +34,11 @@ constexpr double chart_delays[] = {1.0, 1.1, 1.5, 2.0};
 constexpr double chart_shear_ratios[] = {1.0, 2.0, 3.5, 6.0, 12.0, 32.0};
 constexpr int chart_points = static_cast<int>(std::size(chart_delays) * std::size(chart_shear_ratios));
 
+/// A number of a CSV, empty where it was not reached.
+std::string or_empty(double value) {
+  return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string();
+}
+
 class Search {
  public:
   Search(const Calibration& calibration, const CalibrationOptions& options)
@@ -101,12 +106,14 @@ class Search {
     if (plane_strain) poisson /= 1.0 - keys_.poisson_ratio;
     if (keys_.poisson_ratio > 0.0) {
       ratio = samples_->stiffness_ratio_for(poisson);
+      const auto as_meant = [&](double nu) { return plane_strain ? plane_strain_poisson_ratio(nu) : nu; };
       if (ratio == ElasticFit::least_ratio || ratio == ElasticFit::largest_ratio)
         result_.not_met.push_back(fmt::format(
-            "poisson_ratio: {:.4f} (two-dimensional) is out of reach of these bonds, which give {:.4f} to {:.4f} for "
-            "k_t/k_n from {:.3g} to {:.3g}",
-            poisson, samples_->at(ElasticFit::largest_ratio).poisson, samples_->at(ElasticFit::least_ratio).poisson,
-            ElasticFit::largest_ratio, ElasticFit::least_ratio));
+            "poisson_ratio: {:.4g} is out of reach of these bonds, which give {:.4f} to {:.4f} for k_t/k_n from {:.3g} "
+            "to {:.3g}; the nearest end was taken, which changes the strengths, too",
+            keys_.poisson_ratio, as_meant(samples_->at(ElasticFit::largest_ratio).poisson),
+            as_meant(samples_->at(ElasticFit::least_ratio).poisson), ElasticFit::largest_ratio,
+            ElasticFit::least_ratio));
     }
     const UnitElasticity unit = samples_->at(ratio);
     const double in_space = plane_strain_poisson_ratio(unit.poisson);
@@ -259,9 +266,15 @@ class Search {
   bool search_ratio(double wanted, double delay) {
     double x[2] = {std::log(least_shear_ratio), std::log(largest_shear_ratio)}, f[2];
     for (int k = 0; k < 2; ++k) {
-      const StrengthPoint* point = test(std::exp(x[k]), delay, false);
-      if (point == nullptr) return false;
-      f[k] = std::log(point->ratio() / wanted);
+      // An end where a test has no peak is moved inwards.
+      constexpr int most_moves = 3;
+      for (int move = 0; move <= most_moves; ++move) {
+        const StrengthPoint* point = test(std::exp(x[k]), delay, false);
+        if (point == nullptr) return false;
+        f[k] = std::log(point->ratio() / wanted);
+        if (std::isfinite(f[k])) break;
+        x[k] = 0.5 * (x[0] + x[1]);
+      }
     }
     if (!(f[0] < 0.0 && f[1] > 0.0)) return true;  // no bracket: out of reach at this zeta_max
     int same_side = 0;
@@ -302,8 +315,8 @@ class Search {
     io::write_file(options_.folder / "material.toml", design_with(result_.found).schema().to_toml());
     std::string csv = "zeta_max,shear_ratio,tensile_strength,compressive_strength,strength_ratio\n";
     for (const StrengthPoint& p : result_.points)
-      csv += fmt::format("{:.6g},{:.6g},{:.8g},{:.8g},{:.6g}\n", p.rupture_delay, p.shear_ratio, p.tensile.mean,
-                         p.compressive.mean, p.ratio());
+      csv += fmt::format("{:.6g},{:.6g},{},{},{}\n", p.rupture_delay, p.shear_ratio, or_empty(p.tensile.mean),
+                         or_empty(p.compressive.mean), or_empty(p.ratio()));
     io::write_file(options_.folder / "reachable.csv", csv);
   }
 
@@ -334,12 +347,15 @@ class Search {
       if (s.name == statistic) target.reached = s.mean;
     target.met = std::fabs(target.reached / wanted - 1.0) <= keys_.tolerance;
     const bool told = std::any_of(result_.not_met.begin(), result_.not_met.end(),
-                                  [&](const std::string& text) { return text.starts_with(name); });
+                                  [&](const std::string& one) { return one.starts_with(name); });
+    const auto text = [&](double value) {
+      return readable(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
+    };
     if (!target.met && !told)
       result_.not_met.push_back(
-          fmt::format("{}: {:.4g} was reached where {:.4g} was wanted ({:+.1f} %); "
+          fmt::format("{}: {} was reached where {} was wanted ({:+.1f} %); "
                       "more calibrate.replicates, a larger test.size or a wider tolerance may help",
-                      name, target.reached, wanted, 100.0 * (target.reached / wanted - 1.0)));
+                      name, text(target.reached), text(wanted), 100.0 * (target.reached / wanted - 1.0)));
     result_.targets.push_back(std::move(target));
   }
 

@@ -119,7 +119,8 @@ void check_walls(const geometry::PerforationLayout& layout, const io::Schema& sc
                  std::vector<std::string>& warnings) {
   if (layout.perforations.empty()) return;
   const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
-  if (wall.thickness < horizon_radius)
+  constexpr double rounding = 1e-9;
+  if (wall.thickness < (1.0 - rounding) * horizon_radius)
     throw io::InputError(
         schema.origin("layout.diameter"),
         fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than the horizon of {:.4g} mm, so "

@@ -38,6 +38,15 @@ void solve(const DesignFile& file, ElasticAnswer& answer) {
     answer.reason = "the equilibrium was not reached";
     return;
   }
+  // A block in pieces, or one that is held by single bonds, moves without any force: what is left is rounding.
+  constexpr double nothing = 1e-6;
+  const auto& stiffness = answer.response.stiffness;
+  const auto& affine = answer.response.affine_stiffness;
+  if (stiffness[0][0] < nothing * affine[0][0] && stiffness[1][1] < nothing * affine[1][1]) {
+    answer.status = solver::RunStatus::failed;
+    answer.reason = "the bonds do not connect the block: raise material.horizon or packing.solid_fraction";
+    return;
+  }
   answer.first_yield =
       solver::first_yield(answer.network, answer.response, solver::make_bond_law(options.material, mean_diameter));
   answer.reason = "elastic answer found";

@@ -1,7 +1,7 @@
 // What is here: see elastic_fit.h.
 #include "optimize/elastic_fit.h"
 
-#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 
@@ -54,19 +54,15 @@ UnitElasticity ElasticFit::at(double stiffness_ratio) const {
 }
 
 double ElasticFit::stiffness_ratio_for(double poisson) const {
-  double low = least_ratio, high = largest_ratio;
+  const double low = least_ratio, high = largest_ratio;
   if (poisson >= at(low).poisson) return low;
   if (poisson <= at(high).poisson) return high;
-  constexpr double tolerance = 1e-5;  // of nu: far below the scatter of samples
-  constexpr int most_halvings = 60;
-  double middle = std::clamp(voigt_stiffness_ratio(poisson), low, high);
-  for (int k = 0; k < most_halvings; ++k) {
-    const double nu = at(middle).poisson;
-    if (std::fabs(nu - poisson) < tolerance) break;
-    (nu > poisson ? low : high) = middle;
-    middle = std::sqrt(low * high);
-  }
-  return middle;
+  const auto excess = [&](double log_ratio) { return at(std::exp(log_ratio)).poisson - poisson; };
+  constexpr int bits = 20;  // of log(k_t/k_n): nu to about 1e-6, far below the scatter of samples
+  std::uintmax_t most_evaluations = 60;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, std::log(low), std::log(high), boost::math::tools::eps_tolerance<double>(bits), most_evaluations);
+  return std::exp(0.5 * (left + right));
 }
 
 }  // namespace perfora::optimize

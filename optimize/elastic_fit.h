@@ -26,7 +26,7 @@ class ElasticFit {
 
   /// One linear solution a sample; NaN where one did not converge.
   UnitElasticity at(double stiffness_ratio) const;
-  /// k_t/k_n for a two-dimensional nu, by bisection in logarithms from Voigt's value on: nu falls as the ratio grows.
+  /// k_t/k_n for a two-dimensional nu, by a bracketed root in logarithms (TOMS 748): nu falls as the ratio grows.
   /// Beyond what can be reached: the nearer end of the range.
   double stiffness_ratio_for(double poisson) const;
 

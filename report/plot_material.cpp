@@ -21,7 +21,7 @@ constexpr double page_margin = 44.0;
 constexpr double chart_top = 150.0;
 constexpr double chart_height = 260.0;
 constexpr double sample_top = 490.0;
-constexpr double sample_height = 330.0;
+constexpr double sample_height = 318.0;
 constexpr double facts_top = 868.0;
 constexpr double tick_room = 74.0;  ///< left of a chart
 
@@ -34,21 +34,28 @@ constexpr std::array<std::pair<const char*, const char*>, 4> columns = {{{"tensi
 struct Number {
   const char* key;
   const char* label;
-  double scale;
+  double scale;  ///< 0: by the size of the number (kPa, MPa, GPa)
   const char* unit;
 };
+
+/// Scale and unit that show a stress of this size with one to three digits before the point.
+std::pair<double, std::string> stress_unit(double pascal) {
+  if (pascal >= 1e9) return {1e-9, "GPa"};
+  if (pascal >= 1e6) return {1e-6, "MPa"};
+  return {1e-3, "kPa"};
+}
 constexpr Number numbers[] = {
-    {"young_modulus", "E (2D)", 1e-9, "GPa"},
+    {"young_modulus", "E (2D)", 0.0, "Pa"},
     {"poisson_ratio", "nu (2D)", 1.0, ""},
-    {"young_modulus_plane_strain", "E, plane strain", 1e-9, "GPa"},
+    {"young_modulus_plane_strain", "E, plane strain", 0.0, "Pa"},
     {"poisson_ratio_plane_strain", "nu, plane strain", 1.0, ""},
-    {"shear_modulus", "G", 1e-9, "GPa"},
-    {"oedometric_modulus", "C11", 1e-9, "GPa"},
-    {"tensile_strength", "tensile strength", 1e-6, "MPa"},
-    {"compressive_strength", "compr. strength", 1e-6, "MPa"},
+    {"shear_modulus", "G", 0.0, "Pa"},
+    {"oedometric_modulus", "C11", 0.0, "Pa"},
+    {"tensile_strength", "tensile strength", 0.0, "Pa"},
+    {"compressive_strength", "compr. strength", 0.0, "Pa"},
     {"strength_ratio", "compressive / tensile", 1.0, ""},
-    {"shear_strength", "shear strength", 1e-6, "MPa"},
-    {"oedometric_strength", "oedom. strength", 1e-6, "MPa"},
+    {"shear_strength", "shear strength", 0.0, "Pa"},
+    {"oedometric_strength", "oedom. strength", 0.0, "Pa"},
     {"fracture_energy", "fracture energy", 1.0, "J/m2"},
 };
 
@@ -93,13 +100,15 @@ void draw_numbers(Canvas& canvas, const MaterialResult& result) {
   int place = 0;
   for (const Number& entry : numbers) {
     const auto found = material->find(entry.key);
+    if (found == material->end() || !found->at("mean").is_number()) continue;
     const double x = page_margin + width * (place / rows), y = facts_top + 38.0 * (place % rows);
     ++place;
-    if (found == material->end() || !found->at("mean").is_number()) continue;
-    std::string text = short_number(found->at("mean").get<double>() * entry.scale);
+    const double mean = found->at("mean").get<double>();
+    const auto [scale, unit] = entry.scale > 0.0 ? std::pair(entry.scale, std::string(entry.unit)) : stress_unit(mean);
+    std::string text = short_number(mean * scale);
     if (found->at("standard_deviation").is_number())
-      text += " ± " + short_number(found->at("standard_deviation").get<double>() * entry.scale, 2);
-    if (*entry.unit != '\0') text += std::string(" ") + entry.unit;
+      text += " ± " + short_number(found->at("standard_deviation").get<double>() * scale, 2);
+    if (!unit.empty()) text += " " + unit;
     canvas.text(x, y, entry.label, {.size = 17.0, .colour = palette::soft_ink});
     canvas.text(x + width - 30.0, y, text, {.size = 17.0, .bold = true, .align = Align::right});
     canvas.line(x, y + 11.0, x + width - 30.0, y + 11.0, palette::grid);
@@ -118,11 +127,13 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
   int replicates = 0;
   for (const MaterialTest& test : result.tests) replicates = std::max(replicates, test.replicate + 1);
   canvas.text(page_margin, 88.0,
-              fmt::format("Solid samples of {} x {} mm, {} discs of {} mm mean diameter; {} sample{} (mean ± standard "
-                          "deviation); blue and below: the first",
+              fmt::format("Solid samples of {} x {} mm, {} discs of {} mm mean diameter; {}",
                           short_number(result.sample.width * 1e3), short_number(result.sample.height * 1e3),
                           with_thousands(result.sample.size()), short_number(result.sample.mean_diameter() * 1e3),
-                          replicates, replicates == 1 ? "" : "s"),
+                          replicates == 1 ? std::string("one sample")
+                                          : fmt::format("{} samples (mean ± standard deviation); blue and below: the "
+                                                        "first",
+                                                        replicates)),
               {.size = 17.0, .colour = palette::soft_ink});
   std::vector<std::pair<const char*, const char*>> shown;
   for (const auto& column : columns)

@@ -61,7 +61,7 @@ void draw_legend(Canvas& canvas, const Curves& curves, bool with_target) {
   canvas.text(legend_left + 54.0, y, "tested on the way", {.size = 17.0});
   if (!with_target) return;
   y += 36.0;
-  canvas.line(legend_left, y - 6.0, legend_left + 40.0, y - 6.0, palette::green, 2.0, {9.0, 6.0});
+  canvas.line(legend_left, y - 6.0, legend_left + 40.0, y - 6.0, palette::ink, 2.0, {9.0, 6.0});
   canvas.text(legend_left + 54.0, y, "wanted, and what was found", {.size = 17.0});
 }
 
@@ -113,12 +113,12 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
       canvas.disc(chart.px(p.shear_ratio), chart.py(p.ratio), 6.0, p.of_chart ? colour : palette::paper, colour, 1.8);
   }
   if (compressive && tensile) {
-    chart.horizontal(*compressive / *tensile, chart.x_axis().low, chart.x_axis().high, palette::green, 2.0, {9.0, 6.0});
+    chart.horizontal(*compressive / *tensile, chart.x_axis().low, chart.x_axis().high, palette::ink, 2.0, {9.0, 6.0});
     const auto& found = result.at("found");
     if (found.at("critical_normal_stretch").is_number() && found.at("critical_normal_stretch").get<double>() > 0.0) {
       const double ratio =
           found.at("critical_shear_displacement").get<double>() / found.at("critical_normal_stretch").get<double>();
-      chart.vertical(ratio, palette::green, 2.0, {9.0, 6.0});
+      chart.vertical(ratio, palette::ink, 2.0, {9.0, 6.0});
     }
   }
   draw_legend(canvas, curves, compressive && tensile);

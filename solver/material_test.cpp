@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int rows_to_yield = 100;      // history rows up to the estimated yield strain
-constexpr double longest_test = 10.0;   // times the estimated yield strain: no peak until then is a result, too
+constexpr double longest_test = 40.0;   // times the estimated yield strain: no peak until then is a result, too
 constexpr double largest_strain = 0.3;  // of a test: beyond it nothing is a solid any more
 constexpr double least_peak = 0.5;      // of the estimated yield strain: a maximum before it is a wave of the start
 constexpr double undamaged = 1e-3;      // share of the work that damage has taken: up to there moduli are elastic

@@ -61,7 +61,7 @@ struct MaterialTestResult {
   std::vector<BreakEvent> events;
 };
 
-/// A test without a peak (up to ten times the estimated yield strain, at most 0.3) has failed, but for the oedometric
+/// A test without a peak (up to forty times the estimated yield strain, at most 0.3) has failed, but for the oedometric
 /// one, which need not have one. Runs one test: tension and shear until the stress has fallen to a twentieth of the
 /// strength (at most to four times the strain of the peak), the others to options.test.past_peak times the strain of
 /// the peak. Sequential; several may run side by side in threads. Numerical trouble and a test without a peak are a

@@ -299,7 +299,7 @@ TEST_F(CommandLine, CalibrationResumesFromItsJournal) {
       EXPECT_TRUE(target.at("met").get<bool>()) << target;
     }
   }
-  EXPECT_TRUE(fs::exists(folder_ / "whole" / "material.toml") && fs::exists(folder_ / "whole" / "reachable.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "whole" / "material.toml") && fs::exists(folder_ / "whole" / "confirmation.png"));
   EXPECT_EQ(run("check whole/material.toml").exit_code, 0);
   EXPECT_EQ(run("calibrate c.toml -o whole" + small).exit_code, 1) << "exists";
   // Cut the journal after its second point, as a kill there would leave it.

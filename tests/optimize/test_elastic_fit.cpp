@@ -9,8 +9,8 @@ namespace perfora::optimize {
 namespace {
 
 ElasticFit small_fit() {
-  const DesignFile design = DesignFile::from_toml("[packing]\nsolid_fraction = 0.719\n[test]\nsize = 0.012\n", "text");
-  return ElasticFit(material_sample(design), 2, {});
+  const DesignFile design = DesignFile::from_toml("[packing]\nsolid_fraction = 0.719\n[test]\nsize = 0.009\n", "text");
+  return ElasticFit(material_sample(design), 1, {});
 }
 
 // Voigt: nu = (k_n - k_t)/(3 k_n + k_t), so k_t/k_n = (1 - 3 nu)/(1 + nu); Table 1's 0.3757 for 0.185.
@@ -19,7 +19,7 @@ TEST(ElasticFit, VoigtsRatio) {
     EXPECT_NEAR(voigt_stiffness_ratio((1.0 - ratio) / (3.0 + ratio)), ratio, 1e-12);
 }
 
-// The ratio found gives the wanted nu to the tolerance of the bisection (1e-5); nu falls with the ratio; E grows.
+// The ratio found gives the wanted nu to the tolerance of the root (1e-5); nu falls with the ratio; E grows.
 TEST(ElasticFit, GivesTheWantedPoissonRatio) {
   const ElasticFit fit = small_fit();
   double previous = 1.0;
@@ -27,7 +27,7 @@ TEST(ElasticFit, GivesTheWantedPoissonRatio) {
     EXPECT_LT(fit.at(ratio).poisson, previous);
     previous = fit.at(ratio).poisson;
   }
-  for (const double nu : {0.05, 0.15, 0.2, 0.3}) EXPECT_NEAR(fit.at(fit.stiffness_ratio_for(nu)).poisson, nu, 1e-5);
+  for (const double nu : {0.1, 0.25}) EXPECT_NEAR(fit.at(fit.stiffness_ratio_for(nu)).poisson, nu, 1e-5);
   EXPECT_GT(fit.at(1.0).young, fit.at(0.3).young);
 }
 
