@@ -1,12 +1,12 @@
 // What is here: `perfora pack`: design -> P.h5. What is not: how packings are made (geometry).
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <chrono>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/summary_text.h"
+#include "io/memory.h"
 #include "optimize/evaluation.h"
 
 namespace perfora::app {
@@ -18,13 +18,6 @@ struct PackFlags {
   std::string design;
   std::string output;
 };
-
-/// Largest memory of this process so far, bytes.
-double peak_memory() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 int pack(const PackFlags& flags) {
   flags.common.apply();
@@ -45,7 +38,7 @@ int pack(const PackFlags& flags) {
   solver::Performance performance;
   performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   performance.threads = options.threads;
-  performance.peak_memory = peak_memory();
+  performance.peak_memory = io::peak_memory_bytes();
   progress.finish(fmt::format("{} discs in {}", with_thousands(static_cast<double>(packed.summary.discs)),
                               duration_text(performance.seconds)));
 

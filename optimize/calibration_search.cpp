@@ -14,6 +14,7 @@
 #include "optimize/elastic_fit.h"
 #include "optimize/study.h"
 #include "optimize/work_folder.h"
+#include "solver/elastic.h"
 #include "solver/mass.h"
 #include "solver/run.h"
 
@@ -106,7 +107,7 @@ class Search {
     if (plane_strain) poisson /= 1.0 - keys_.poisson_ratio;
     if (keys_.poisson_ratio > 0.0) {
       ratio = samples_->stiffness_ratio_for(poisson);
-      const auto as_meant = [&](double nu) { return plane_strain ? plane_strain_poisson_ratio(nu) : nu; };
+      const auto as_meant = [&](double nu) { return plane_strain ? solver::plane_strain_poisson_ratio(nu) : nu; };
       if (ratio == ElasticFit::least_ratio || ratio == ElasticFit::largest_ratio)
         result_.not_met.push_back(fmt::format(
             "poisson_ratio: {:.4g} is out of reach of these bonds, which give {:.4f} to {:.4f} for k_t/k_n from {:.3g} "
@@ -116,7 +117,7 @@ class Search {
             ElasticFit::least_ratio));
     }
     const UnitElasticity unit = samples_->at(ratio);
-    const double in_space = plane_strain_poisson_ratio(unit.poisson);
+    const double in_space = solver::plane_strain_poisson_ratio(unit.poisson);
     if (plane_strain) young /= 1.0 - in_space * in_space;
     result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit.young : material.normal_stiffness;
     result_.found.tangential_stiffness = ratio * result_.found.normal_stiffness;

@@ -2,7 +2,6 @@
 #include "optimize/material_tests.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +12,9 @@
 #include <mutex>
 #include <thread>
 
+#include "io/memory.h"
 #include "optimize/evaluation.h"
+#include "solver/elastic.h"
 
 namespace perfora::optimize {
 namespace {
@@ -77,8 +78,9 @@ std::vector<Statistic> statistics_of(const std::vector<MaterialTestRun>& runs, i
   const std::vector<std::pair<const char*, std::function<double(const ByKind&)>>> list = {
       {"young_modulus", young},
       {"poisson_ratio", poisson},
-      {"young_modulus_plane_strain", [&](const ByKind& s) { return plane_strain_young_modulus(young(s), poisson(s)); }},
-      {"poisson_ratio_plane_strain", [&](const ByKind& s) { return plane_strain_poisson_ratio(poisson(s)); }},
+      {"young_modulus_plane_strain",
+       [&](const ByKind& s) { return solver::plane_strain_young_modulus(young(s), poisson(s)); }},
+      {"poisson_ratio_plane_strain", [&](const ByKind& s) { return solver::plane_strain_poisson_ratio(poisson(s)); }},
       {"shear_modulus", [](const ByKind& s) { return s.value(Kind::shear, &Result::modulus); }},
       {"oedometric_modulus", [](const ByKind& s) { return s.value(Kind::oedometric, &Result::modulus); }},
       {"tensile_strength", [](const ByKind& s) { return s.value(Kind::tension, &Result::strength); }},
@@ -119,15 +121,6 @@ void sum_up(MaterialTests& tests) {
 }
 
 }  // namespace
-
-double plane_strain_poisson_ratio(double two_dimensional) {
-  return two_dimensional / (1.0 + two_dimensional);
-}
-
-double plane_strain_young_modulus(double two_dimensional, double two_dimensional_poisson) {
-  const double nu = plane_strain_poisson_ratio(two_dimensional_poisson);
-  return two_dimensional * (1.0 - nu * nu);
-}
 
 DesignFile material_sample(const DesignFile& design) {
   DesignFile sample = design.clone();
@@ -220,9 +213,7 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
   sum_up(tests);
   tests.performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   tests.performance.threads = options.threads;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  tests.performance.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  tests.performance.peak_memory = io::peak_memory_bytes();
   return tests;
 }
 

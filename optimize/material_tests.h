@@ -57,10 +57,6 @@ std::vector<solver::MaterialTestKind> wanted_tests(const DesignFile& design);
 MaterialTests test_material(const DesignFile& design, const std::vector<solver::MaterialTestKind>& kinds,
                             const MaterialTestsOptions& options);
 
-/// Plane-strain reading of two-dimensional constants: nu = nu2/(1 + nu2), E = E2 (1 - nu^2).
-double plane_strain_poisson_ratio(double two_dimensional);
-double plane_strain_young_modulus(double two_dimensional, double two_dimensional_poisson);
-
 /// schema "perfora.test/1".
 nlohmann::json to_json(const MaterialTests& tests);
 

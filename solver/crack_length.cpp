@@ -1,26 +1,13 @@
 // What is here: cracks as clusters of broken bonds, and their length across the loading.
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "solver/cell_grid.h"
+#include "solver/clusters.h"
 #include "solver/material_test.h"
 
 namespace perfora::solver {
 namespace {
-
-class Clusters {
- public:
-  explicit Clusters(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 double wrapped(double value, double period) {
   return value - period * std::floor(value / period);

@@ -34,6 +34,10 @@ struct PlaneModuli {
   double plane_strain_young = 0.0, plane_strain_poisson = 0.0;
 };
 
+/// Plane-strain reading of two-dimensional constants: nu = nu2/(1 + nu2), E = E2 (1 - nu^2).
+double plane_strain_poisson_ratio(double two_dimensional);
+double plane_strain_young_modulus(double two_dimensional, double two_dimensional_poisson);
+
 /// Moduli of a symmetric plane stiffness.
 PlaneModuli plane_moduli(const PlaneStiffness& stiffness);
 

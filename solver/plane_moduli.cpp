@@ -40,11 +40,20 @@ void read_isotropic(const PlaneStiffness& c, PlaneModuli& m) {
   m.anisotropy =
       norm(c[0][0] - bulk - shear, c[1][1] - bulk - shear, c[0][1] - bulk + shear, c[2][2] - shear, c[0][2], c[1][2]) /
       norm(c[0][0], c[1][1], c[0][1], c[2][2], c[0][2], c[1][2]);
-  m.plane_strain_poisson = m.isotropic_poisson / (1.0 + m.isotropic_poisson);
-  m.plane_strain_young = m.isotropic_young * (1.0 - m.plane_strain_poisson * m.plane_strain_poisson);
+  m.plane_strain_poisson = plane_strain_poisson_ratio(m.isotropic_poisson);
+  m.plane_strain_young = plane_strain_young_modulus(m.isotropic_young, m.isotropic_poisson);
 }
 
 }  // namespace
+
+double plane_strain_poisson_ratio(double two_dimensional) {
+  return two_dimensional / (1.0 + two_dimensional);
+}
+
+double plane_strain_young_modulus(double two_dimensional, double two_dimensional_poisson) {
+  const double nu = plane_strain_poisson_ratio(two_dimensional_poisson);
+  return two_dimensional * (1.0 - nu * nu);
+}
 
 PlaneModuli plane_moduli(const PlaneStiffness& stiffness) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

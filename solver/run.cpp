@@ -3,7 +3,6 @@
 #include "solver/run.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +12,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/memory.h"
 #include "io/progress.h"
 #include "solver/fragments.h"
 #include "solver/frame.h"
@@ -40,12 +40,6 @@ constexpr std::int64_t steps_between_looks = 64;  // at the clock and the stop f
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 Cell oedometric_cell(const CellMatrix& start, double rate) {
@@ -260,9 +254,7 @@ class Run {
     }
   }
 
-  void keep_frame() {
-    write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_));
-  }
+  void keep_frame() { write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_)); }
 
   bool failed() {
     const History& h = progress_.history;
@@ -311,7 +303,7 @@ class Run {
     p.ns_per_bond_step = bond_steps > 0.0 ? 1e9 * seconds / bond_steps : nan;
     p.threads = request_.options.dynamics.kernel == KernelChoice::reference ? 1 : request_.threads;
     p.simd = simulation_->simd();
-    p.peak_memory = peak_memory_bytes();
+    p.peak_memory = io::peak_memory_bytes();
     response_.history = h;
     if (!writes()) return;
     const std::string summary = request_.summary_text ? request_.summary_text(response_) : std::string("{}");

@@ -4,6 +4,7 @@
 
 #include "optimize/elastic_fit.h"
 #include "optimize/material_tests.h"
+#include "solver/elastic.h"
 
 namespace perfora::optimize {
 namespace {
@@ -44,8 +45,8 @@ TEST(ElasticFit, EndsOfTheRange) {
 TEST(PlaneStrain, ReadsBackToItself) {
   const double young = 30e9, nu = 0.2;
   const double young_2 = young / (1.0 - nu * nu), nu_2 = nu / (1.0 - nu);
-  EXPECT_NEAR(plane_strain_poisson_ratio(nu_2), nu, 1e-15);
-  EXPECT_NEAR(plane_strain_young_modulus(young_2, nu_2), young, 1e-4);
+  EXPECT_NEAR(solver::plane_strain_poisson_ratio(nu_2), nu, 1e-15);
+  EXPECT_NEAR(solver::plane_strain_young_modulus(young_2, nu_2), young, 1e-4);
 }
 
 }  // namespace
