@@ -13,6 +13,7 @@ struct PlotFlags {
   CommonFlags common;
   std::string input;
   std::string output;
+  std::string title;
 };
 
 int plot(const PlotFlags& flags) {
@@ -22,14 +23,16 @@ int plot(const PlotFlags& flags) {
   const std::string format = io::Hdf5Reader(input).attribute_text("/", "format");
   const auto output = output_or_default(flags.output, default_name(input, ".png"));
   check_new_output(output, flags.common.force);
+  report::PlotOptions options;
+  options.title = flags.title;
   if (format.starts_with("perfora.pack/"))
-    report::plot_packing(input, output);
+    report::plot_packing(input, output, options);
   else if (format.starts_with("perfora.test/"))
-    report::plot_material_tests(input, output);
+    report::plot_material_tests(input, output, options);
   else if (format.starts_with("perfora.elastic/"))
-    report::plot_elastic(input, output);
+    report::plot_elastic(input, output, options);
   else
-    report::plot_run(input, output);
+    report::plot_run(input, output, options);
   if (flags.common.json)
     print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});
   io::log_info("written: " + output.string());
@@ -46,6 +49,7 @@ void add_plot(CLI::App& program, int& exit_code) {
                    "Run file R.h5, packing file P.h5, material tests T.h5 or file of evaluate --elastic")
       ->required();
   command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: FILE's name + .png)");
+  command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name)")->type_name("TEXT");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });
 }

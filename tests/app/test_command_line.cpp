@@ -279,7 +279,7 @@ TEST_F(CommandLine, TestOfAMaterialGivesRecordFileAndPicture) {
   EXPECT_TRUE(fs::exists(folder_ / "t.h5") && fs::exists(folder_ / "t.png"));
   EXPECT_EQ(run("test d.toml -o t.h5 --quiet" + small).exit_code, 1) << "exists";
   EXPECT_EQ(json::parse(run("show t.h5 --json").output).at("material"), record.at("material"));
-  EXPECT_EQ(run("plot t.h5 -o again.png").exit_code, 0);
+  EXPECT_EQ(run("plot t.h5 -o again.png --title \"My mortar\"").exit_code, 0);
 }
 
 // Killed after its first points and resumed, a calibration ends with the numbers of one that was not; only the first
