@@ -26,7 +26,7 @@ using solver::MaterialTestKind;
 
 constexpr const char* own_files[] = {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
                                      "reachable.png", "confirmation.h5", "confirmation.png"};
-/// delta_t0/delta_n0: beyond these one of the two thresholds no longer matters (docs/theory.md, "Calibration").
+/// delta_t0/delta_n0 searched (docs/theory.md, "Calibration"); the ratio of strengths still grows at the upper end.
 constexpr double least_shear_ratio = 1.0, largest_shear_ratio = 32.0;
 /// Other zeta_max to try, nearest to the design's first.
 constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};
@@ -184,9 +184,7 @@ class Search {
       if (tests.status == solver::RunStatus::stopped || solver::stop_requested()) return nullptr;
       json event = {{"event", "point"}, {"key", key}, {"shear_ratio", shear_ratio}, {"rupture_delay", rupture_delay}};
       for (const MaterialTestRun& run : tests.runs)
-        event[solver::material_test_name(run.result.kind)].push_back(
-            number(run.result.status == solver::RunStatus::completed ? run.result.strength
-                                                                     : std::numeric_limits<double>::quiet_NaN()));
+        event[solver::material_test_name(run.result.kind)].push_back(number(run.result.strength));
       journal_->append(event.dump());
       found = known_.emplace(key, event).first;
     }
@@ -227,7 +225,11 @@ class Search {
     if (!(keys_.compressive_strength > 0.0)) {
       const StrengthPoint* only =
           test(material.critical_shear_displacement / material.critical_normal_stretch, material.rupture_delay, false);
-      return only != nullptr && take(*only);
+      if (only == nullptr) return false;
+      if (only->tensile.count > 0) return take(*only);
+      result_.status = solver::RunStatus::failed;
+      result_.reason = "no test gave a tensile strength";
+      return true;
     }
     const double wanted = keys_.compressive_strength / keys_.tensile_strength;
     StrengthPoint nearest;

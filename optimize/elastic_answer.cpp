@@ -7,7 +7,6 @@
 
 #include "geometry/packing_file.h"
 #include "io/error.h"
-#include "io/provenance.h"
 #include "solver/simulation.h"
 
 namespace perfora::optimize {
@@ -187,11 +186,7 @@ json to_json(const ElasticAnswer& answer) {
 void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticAnswer& answer,
                         const json& summary, const std::string& command_line) {
   io::Hdf5Writer file(path);
-  file.attribute("/", "format", "perfora.elastic/1");
-  file.attribute("/", "program_version", io::program_version());
-  file.attribute("/", "git_revision", io::git_revision());
-  file.attribute("/", "command_line", command_line);
-  file.attribute("/", "seeds", summary.at("seeds").dump());
+  write_record(file, "perfora.elastic/1", design, summary, command_line);
   geometry::write_layout(file, "/layout", answer.packed.layout);
   geometry::write_packing(file, "/clipped", answer.packed.clipped);
   write_stiffness(file, "/stiffness", answer.response.stiffness);
@@ -200,8 +195,6 @@ void write_elastic_file(const std::filesystem::path& path, const DesignFile& des
   for (std::size_t e = 0; e < names.size(); ++e)
     file.dataset(names[e], answer.response.displacement[e], 3, "m, m, rad per unit strain");
   write_first_yield(file, answer);
-  file.text("/config", design.schema().to_toml());
-  file.text("/summary", summary.dump(2));
   file.commit();
 }
 

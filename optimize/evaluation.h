@@ -15,6 +15,10 @@
 #include "solver/response.h"
 #include "solver/run.h"
 
+namespace perfora::io {
+class Hdf5Writer;
+}
+
 namespace perfora::optimize {
 
 struct EvaluateOptions {
@@ -73,6 +77,11 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
 /// What r_H and the overlaps of a run are stated in: <d> of the size law, or the mean of the discs of an imported
 /// packing, m.
 double mean_diameter_of(const DesignFile& design, const geometry::Packing& periodic);
+
+/// What every result file of a design begins and ends with: format, who wrote it and how, seeds; the resolved
+/// configuration and `summary`, the object that --json prints.
+void write_record(io::Hdf5Writer& file, const std::string& format, const DesignFile& design,
+                  const nlohmann::json& summary, const std::string& command_line);
 
 /// P.h5 of a packed design (docs/formats.md), whole or not at all; `summary` is the object that `perfora pack --json`
 /// prints.

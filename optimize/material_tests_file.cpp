@@ -3,7 +3,6 @@
 
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
-#include "io/provenance.h"
 #include "optimize/evaluation.h"
 #include "optimize/material_tests.h"
 #include "solver/run_files.h"
@@ -59,11 +58,7 @@ json to_json(const MaterialTests& tests) {
 void write_material_tests(const std::filesystem::path& path, const DesignFile& design, const MaterialTests& tests,
                           const std::string& command_line) {
   io::Hdf5Writer file(path);
-  file.attribute("/", "format", std::string("perfora.test/1"));
-  file.attribute("/", "program_version", io::program_version());
-  file.attribute("/", "git_revision", io::git_revision());
-  file.attribute("/", "command_line", command_line);
-  file.attribute("/", "seeds", to_json(tests.seeds).dump());
+  write_record(file, "perfora.test/1", design, to_json(tests), command_line);
   geometry::write_packing(file, "/sample", tests.sample);
   for (const MaterialTestRun& run : tests.runs) {
     const std::string group =
@@ -81,8 +76,6 @@ void write_material_tests(const std::filesystem::path& path, const DesignFile& d
     solver::write_frame_group(file, group + "/frame", run.result.frame);
     solver::write_events(file, group + "/events", run.result.events);
   }
-  file.text("/config", design.schema().to_toml());
-  file.text("/summary", to_json(tests).dump(2));
   file.commit();
 }
 

@@ -10,9 +10,6 @@
 namespace perfora::report {
 namespace {
 
-/// Discs are drawn this much larger, so that the pores of a dense packing (three discs leave a gap of 0.15 radii) do
-/// not show as noise.
-constexpr double bonded_growth = 0.28;
 /// From this radius on (pixels) discs are shown one by one over the closed ground.
 constexpr double visible_radius = 2.2;
 /// Then the ground shows around each of them as a rim.

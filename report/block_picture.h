@@ -13,6 +13,10 @@
 
 namespace perfora::report {
 
+/// Discs are drawn this much larger, so that the pores of a dense packing (three discs leave a gap of 0.15 radii) do
+/// not show as noise.
+inline constexpr double bonded_growth = 0.28;
+
 /// Discs in a block with edges (h_xx, 0) and (h_xy, h_yy), m; equally long columns.
 struct BlockPicture {
   double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;

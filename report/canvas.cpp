@@ -218,4 +218,11 @@ std::string short_number(double value, int digits) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
+StressUnit stress_unit(double pascal) {
+  const double size = std::abs(pascal);
+  if (size >= 1e9) return {1e-9, "GPa"};
+  if (size >= 1e6) return {1e-6, "MPa"};
+  return {1e-3, "kPa"};
+}
+
 }  // namespace perfora::report

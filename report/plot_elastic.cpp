@@ -43,9 +43,8 @@ std::vector<double> nearness_of(const ElasticResult& elastic) {
 }
 
 BlockPicture picture_of(const ElasticResult& elastic, const std::vector<double>& nearness) {
-  constexpr double closing_growth = 0.28;  // closes the pores of the packing, as in pictures of a run
   BlockPicture picture = picture_of_packing(elastic.clipped);
-  picture.growth.assign(nearness.size(), closing_growth);
+  picture.growth.assign(nearness.size(), bonded_growth);
   std::transform(nearness.begin(), nearness.end(), picture.colour.begin(), nearness_colour);
   return picture;
 }
@@ -53,9 +52,8 @@ BlockPicture picture_of(const ElasticResult& elastic, const std::vector<double>&
 using Fact = std::pair<std::string, std::string>;
 
 std::string stress_text(double pascal) {
-  const double size = std::abs(pascal);
-  if (size >= 1e9) return short_number(1e-9 * pascal, 4) + " GPa";
-  return size >= 1e6 ? short_number(1e-6 * pascal, 4) + " MPa" : short_number(1e-3 * pascal, 4) + " kPa";
+  const StressUnit unit = stress_unit(pascal);
+  return short_number(unit.scale * pascal, 4) + " " + unit.name;
 }
 
 std::vector<Fact> yield_facts(const ElasticResult& elastic) {

@@ -38,12 +38,6 @@ struct Number {
   const char* unit;
 };
 
-/// Scale and unit that show a stress of this size with one to three digits before the point.
-std::pair<double, std::string> stress_unit(double pascal) {
-  if (pascal >= 1e9) return {1e-9, "GPa"};
-  if (pascal >= 1e6) return {1e-6, "MPa"};
-  return {1e-3, "kPa"};
-}
 constexpr Number numbers[] = {
     {"young_modulus", "E (2D)", 0.0, "Pa"},
     {"poisson_ratio", "nu (2D)", 1.0, ""},
@@ -104,11 +98,11 @@ void draw_numbers(Canvas& canvas, const MaterialResult& result) {
     const double x = page_margin + width * (place / rows), y = facts_top + 38.0 * (place % rows);
     ++place;
     const double mean = found->at("mean").get<double>();
-    const auto [scale, unit] = entry.scale > 0.0 ? std::pair(entry.scale, std::string(entry.unit)) : stress_unit(mean);
+    const auto [scale, unit] = entry.scale > 0.0 ? StressUnit{entry.scale, entry.unit} : stress_unit(mean);
     std::string text = short_number(mean * scale);
     if (found->at("standard_deviation").is_number())
       text += " ± " + short_number(found->at("standard_deviation").get<double>() * scale, 2);
-    if (!unit.empty()) text += " " + unit;
+    if (*unit != '\0') text += std::string(" ") + unit;
     canvas.text(x, y, entry.label, {.size = 17.0, .colour = palette::soft_ink});
     canvas.text(x + width - 30.0, y, text, {.size = 17.0, .bold = true, .align = Align::right});
     canvas.line(x, y + 11.0, x + width - 30.0, y + 11.0, palette::grid);

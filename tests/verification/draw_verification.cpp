@@ -104,7 +104,7 @@ void draw_holes(const std::filesystem::path& data, const std::filesystem::path& 
   const auto square = columns_of(data / "holes_square.csv"), staggered = columns_of(data / "holes_staggered.csv"),
              edge = columns_of(data / "hole_edge.csv");
   panel(canvas, 0, "Sheets with holes: Young's modulus", {0.0, 0.35, "r_H/T", false},
-        {0.4, 0.85, "over the solid's", false},
+        {0.4, 0.85, "E over that of the solid", false},
         {level(square[3][0], "square array, along the pitch: Slot", palette::blue),
          {square[0], square[1], "discs, square cell", palette::blue, Style::points},
          {staggered[0], staggered[2], "discs, staggered cell, at 45 degrees", palette::green, Style::points},
