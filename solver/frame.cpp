@@ -28,7 +28,7 @@ FrameData take_frame(const Simulation& simulation, const std::vector<std::int32_
     frame.position.push_back(x);
     frame.position.push_back(y);
   }
-  frame.angle = discs.angle;
+  for (std::size_t d = 0; d < n; ++d) frame.angle.push_back(discs.angle(d));
   std::vector<double> kept(n, 0.0);
   for (std::size_t b = 0; b < network.i.size(); ++b) {
     if (network.state[b] != BondState::intact) continue;

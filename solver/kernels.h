@@ -35,26 +35,39 @@ struct ForceStep {
 class ForceBackend {
  public:
   virtual ~ForceBackend() = default;
-  /// Builds the backend's own layout from the network. Bonds that are `compacted` are left out; `broken` ones keep an
+  /// Builds the backend's own layout from the network; `start` is the cell at the start of the run. Bonds that are `compacted` are left out; `broken` ones keep an
   /// empty slot, so that a restored run sums in the same order as the run it goes on from.
-  virtual void load(const BondNetwork& network, const DiscState& discs) = 0;
+  virtual void load(const BondNetwork& network, const DiscState& discs, const CellMatrix& start) = 0;
   virtual StepSums forces(ForceStep& step) = 0;
   /// Instruction set it runs with, for the record.
   virtual std::string simd() const = 0;
 };
 
 std::unique_ptr<ForceBackend> make_reference_backend(const BondLaw& bond, const ContactLaw& contact);
-/// Vectorised, `threads` OpenMP threads; the same bits for every number of threads.
-std::unique_ptr<ForceBackend> make_openmp_backend(const BondLaw& bond, const ContactLaw& contact, int threads);
+/// Vectorised, `threads` OpenMP threads; the same bits for every number of threads. `simd` must be one that this
+/// machine has (usable_simd).
+std::unique_ptr<ForceBackend> make_openmp_backend(const BondLaw& bond, const ContactLaw& contact, int threads,
+                                                  SimdChoice simd = SimdChoice::automatic);
+/// Instruction sets the bond kernels can use here, best first, without `automatic`.
+std::vector<SimdChoice> usable_simd();
 
-/// A bond at one end of a step, seen from disc i: displacements at positions `a` (of i) and `b` (of j) in the cell.
-inline BondKinematics kinematics_of(const DiscRecord& a, const DiscRecord& b, const CellMatrix& cell, double e0x,
-                                    double e0y, double l0) {
-  double dx = b.x - a.x, dy = b.y - a.y;
-  dx -= dx > 0.5 ? 1.0 : (dx < -0.5 ? -1.0 : 0.0);
-  dy -= dy > 0.5 ? 1.0 : (dy < -0.5 ? -1.0 : 0.0);
-  const double rx = cell.xx * dx + cell.xy * dy, ry = cell.yy * dy;
-  return bond_kinematics(rx, ry, e0x, e0y, l0, a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s);
+/// A bond's displacements at the end of the last drift, in the cell then. e0 from i to j, l0 in m.
+inline BondKinematics kinematics_of(const DiscState& discs, std::int32_t i, std::int32_t j, const CellMatrix& cell,
+                                    double e0x, double e0y, double l0) {
+  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+  const double dx = reduced(discs.sx[b] - discs.sx[a]), dy = reduced(discs.sy[b] - discs.sy[a]);
+  const CosineSine half = cosine_sine(discs.turn[a] + discs.turn[b]);
+  return bond_kinematics(cell.xx * dx + cell.xy * dy, cell.yy * dy, e0x, e0y, l0, half.c, half.s);
+}
+
+/// The same at its start.
+inline BondKinematics kinematics_before(const DiscState& discs, std::int32_t i, std::int32_t j, const CellMatrix& cell,
+                                        double e0x, double e0y, double l0) {
+  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+  const double dx = reduced(discs.sx_before[b] - discs.sx_before[a]),
+               dy = reduced(discs.sy_before[b] - discs.sy_before[a]);
+  const CosineSine half = cosine_sine(discs.turn_before[a] + discs.turn_before[b]);
+  return bond_kinematics(cell.xx * dx + cell.xy * dy, cell.yy * dy, e0x, e0y, l0, half.c, half.s);
 }
 
 }  // namespace perfora::solver

@@ -1,21 +1,16 @@
-// What is here: the vectorised OpenMP backend in double precision. Each disc sums all its own bonds and contacts ("full
-// list") in fixed order, so no two threads write the same place and the bits do not depend on their number. Four bonds
-// make one vector; the lanes are fixed (GCC vector extensions), so the bits do not depend on the instruction set
-// either: no contraction, only IEEE operations. What is not: the law itself (laws.h). Bonds that yield leave the vector
-// path and go through laws.h one by one.
+// What is here: the vectorised OpenMP backend. Each disc sums all its own bonds and contacts ("full list") in fixed
+// order, so no two threads write the same place and the bits do not depend on their number. Bonds go through the vector
+// loop of the best instruction set the machine has (bond_kernel.h); those near their yield surface leave it and go
+// through laws.h one by one in double precision. What is not: the vector loop, the law itself.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
+
+#include "solver/bond_kernel.h"
+#include "solver/bond_rows.h"
 #include "solver/kernels.h"
-#include "solver/vector4.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define PERFORA_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define PERFORA_CLONES
-#endif
+#define PERFORA_INLINE __attribute__((always_inline)) inline
 
 namespace perfora::solver {
 namespace {
@@ -24,49 +19,41 @@ std::size_t at(std::int32_t k) {
   return static_cast<std::size_t>(k);
 }
 
-/// Four half-bonds of one disc. An empty lane points at the disc itself with everything zero and D = 1: its branch is
-/// exactly zero, and so is its force.
-struct alignas(32) Group {
-  Vector l0, e0x, e0y;
-  Vector scale;   ///< 1/(strength zeta(D)): what turns displacements into shares of the current yield surface, before
-                  ///< 1/delta^0
-  Vector damage;  ///< D
-  std::int32_t neighbour[lanes];
-  std::int32_t bond[lanes];  ///< -1: empty
-};
-
 /// Everything the loops over one chunk read and write.
 struct ChunkTask {
   const BondLaw* bond;
   const ContactLaw* contact;
+  BondRows* rows;
   ForceStep* step;
-  Group* groups;
-  const std::int32_t* row;  ///< first group of each disc
   std::int32_t begin, end;  ///< discs
   std::int32_t* broken;     ///< room for the bonds whose lower disc is in this chunk
   std::int32_t broken_count;
   StepSums sums;
+  BondSweep sweep;
 };
 
-/// Off the vector path: one end of a bond that yields (or, with damage in compression, is damaged). Updates D, writes
-/// the network from the lower end, and returns the forces; both ends see mirrored numbers and so take the same
-/// decision.
-BondForce yielding_bond(ChunkTask& task, std::int32_t i, Group& group, int lane) {
+/// Off the vector path: one end of a bond near its yield surface (or, with damage in compression, damaged). Updates D,
+/// writes the network from the lower end, and returns the forces; both ends see mirrored numbers and so take the same
+/// decision. Damage is kept in single precision, as the rows hold it.
+BondEndForce bond_end(void* context, std::int32_t i, std::int64_t slot) {
+  ChunkTask& task = *static_cast<ChunkTask*>(context);
   ForceStep& step = *task.step;
   const BondLaw& law = *task.bond;
   const DiscState& discs = step.discs;
-  const std::int32_t j = group.neighbour[lane], id = group.bond[lane];
-  const double l0 = group.l0[lane], e0x = group.e0x[lane], e0y = group.e0y[lane];
-  const BondKinematics k = kinematics_of(discs.record[at(i)], discs.record[at(j)], step.cell, e0x, e0y, l0);
+  const std::int32_t j = task.rows->neighbour(slot), id = task.rows->bond(slot);
+  const double sign = i < j ? 1.0 : -1.0;
+  const double l0 = step.network.rest_length[at(id)], e0x = sign * step.network.direction_x[at(id)],
+               e0y = sign * step.network.direction_y[at(id)];
+  const BondKinematics k = kinematics_of(discs, i, j, step.cell, e0x, e0y, l0);
   const double contact_distance = discs.radius[at(i)] + discs.radius[at(j)];
   const double touch = std::min(contact_distance, l0);
   const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
-  const double old_damage = group.damage[lane];
+  const double old_damage = task.rows->damage(slot);
   const double strength = step.network.strength[at(id)];
-  const double damage = updated_damage(law, k.delta_n, k.delta_t, strength, old_damage);
+  const double damage =
+      static_cast<double>(static_cast<float>(updated_damage(law, k.delta_n, k.delta_t, strength, old_damage)));
   if (damage > old_damage) {
-    const BondKinematics old =
-        kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before, e0x, e0y, l0);
+    const BondKinematics old = kinematics_before(discs, i, j, step.cell_before, e0x, e0y, l0);
     const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
     double dissipated = damageable_energy(law, before, now) * (damage - old_damage);
     if (i < j) step.network.damage[at(id)] = damage;
@@ -77,18 +64,15 @@ BondForce yielding_bond(ChunkTask& task, std::int32_t i, Group& group, int lane)
         task.broken[task.broken_count++] = id;
       }
       step.near_pairs.release(i, j, touch);
-      group.l0[lane] = group.e0x[lane] = group.e0y[lane] = group.scale[lane] = 0.0;
-      group.damage[lane] = 1.0;
-      group.neighbour[lane] = i;
-      group.bond[lane] = -1;
+      task.rows->clear(slot, i);
     } else {
-      group.damage[lane] = damage;
-      group.scale[lane] = 1.0 / (strength * zeta_of_damage(law, damage));
+      task.rows->set_damage(slot, damage, 1.0 / (strength * zeta_of_damage(law, damage)));
     }
     task.sums.damage += 0.5 * dissipated;  // the other end adds the other half
   }
-  if (damage >= 1.0) return {0.0, 0.0};
-  return bond_force(law, now, damage);
+  if (damage >= 1.0) return {};
+  const BondForce f = bond_force(law, now, damage);
+  return {f.normal, f.shear};
 }
 
 /// One end of a contact, seen from disc i; adds to its force and torque.
@@ -97,10 +81,7 @@ PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot,
   ForceStep& step = *task.step;
   const DiscState& discs = step.discs;
   const std::int32_t j = slot.neighbour;
-  const DiscRecord &a = discs.record[at(i)], &b = discs.record[at(j)];
-  double dx = b.x - a.x, dy = b.y - a.y;
-  dx -= dx > 0.5 ? 1.0 : (dx < -0.5 ? -1.0 : 0.0);
-  dy -= dy > 0.5 ? 1.0 : (dy < -0.5 ? -1.0 : 0.0);
+  const double dx = reduced(discs.sx[at(j)] - discs.sx[at(i)]), dy = reduced(discs.sy[at(j)] - discs.sy[at(i)]);
   const double rx = step.cell.xx * dx + step.cell.xy * dy, ry = step.cell.yy * dy;
   const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
   const double square = rx * rx + ry * ry;
@@ -138,157 +119,46 @@ PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot,
   task.sums.largest_overlap = std::max(task.sums.largest_overlap, overlap);
 }
 
-/// The chunk: bonds four at a time, then contacts, disc by disc. `quartic`: alpha = 4, the paper's, without a loop.
-template <bool quartic, bool compression_weakens>
-PERFORA_INLINE void chunk_forces(ChunkTask& task) {
+/// Contacts of the chunk's discs, on top of the bond forces.
+void chunk_contacts(ChunkTask& task) {
   ForceStep& step = *task.step;
   DiscState& discs = step.discs;
-  const BondLaw& law = *task.bond;
-  const DiscRecord* record = discs.record.data();
-  const Vector h_xx = splat(step.cell.xx), h_xy = splat(step.cell.xy), h_yy = splat(step.cell.yy);
-  const Vector k_n = splat(law.normal_stiffness), k_t = splat(law.tangential_stiffness);
-  const Vector inverse_n = splat(law.inverse_critical_normal), inverse_t = splat(law.inverse_critical_shear);
-  const Vector one = splat(1.0), zero = splat(0.0), half = splat(0.5);
-  const Vector tiny = splat(1e-300);  // keeps an empty lane's 1/|r| finite; far below the rounding of any real |r|^2
-  Vector virial_xx = zero, virial_xy = zero, virial_yx = zero, virial_yy = zero;
   for (std::int32_t i = task.begin; i < task.end; ++i) {
-    Vector force_x = zero, force_y = zero, twice_torque = zero;
-    const DiscRecord own = record[i];
-    const Vector xi = splat(own.x), yi = splat(own.y), ci = splat(own.c), si = splat(own.s);
-    for (std::int32_t g = task.row[i]; g < task.row[i + 1]; ++g) {
-      Group& group = task.groups[g];
-      Vector r0, r1, r2, r3;  // records of the four neighbours: loaded whole, then transposed
-      std::memcpy(&r0, record + group.neighbour[0], sizeof r0);
-      std::memcpy(&r1, record + group.neighbour[1], sizeof r1);
-      std::memcpy(&r2, record + group.neighbour[2], sizeof r2);
-      std::memcpy(&r3, record + group.neighbour[3], sizeof r3);
-      const Vector low01 = __builtin_shuffle(r0, r1, Mask{0, 4, 2, 6}),
-                   high01 = __builtin_shuffle(r0, r1, Mask{1, 5, 3, 7});
-      const Vector low23 = __builtin_shuffle(r2, r3, Mask{0, 4, 2, 6}),
-                   high23 = __builtin_shuffle(r2, r3, Mask{1, 5, 3, 7});
-      const Vector xj = __builtin_shuffle(low01, low23, Mask{0, 1, 4, 5}),
-                   cj = __builtin_shuffle(low01, low23, Mask{2, 3, 6, 7});
-      const Vector yj = __builtin_shuffle(high01, high23, Mask{0, 1, 4, 5}),
-                   sj = __builtin_shuffle(high01, high23, Mask{2, 3, 6, 7});
-
-      Vector dx = xj - xi, dy = yj - yi;
-      dx -= nearest(dx);
-      dy -= nearest(dy);
-      const Vector rx = h_xx * dx + h_xy * dy, ry = h_yy * dy;
-      const Vector length = root(rx * rx + ry * ry + tiny);
-      const Vector inverse = one / length;
-      const Vector cosine = ci * cj - si * sj, sine = si * cj + ci * sj;
-      const Vector ex = cosine * group.e0x - sine * group.e0y, ey = sine * group.e0x + cosine * group.e0y;
-      const Vector along = ex * rx + ey * ry;
-      const Vector delta_n = length - group.l0, delta_t = ex * ry - ey * rx;
-
-      const Vector share_n = delta_n * inverse_n * group.scale, share_t = magnitude(delta_t) * inverse_t * group.scale;
-      Vector power;
-      if constexpr (quartic) {
-        const Vector square = share_t * share_t;
-        power = square * square;
-      } else {
-        power = half_integer_power_of(share_t, law.twice_alpha);
-      }
-      const Vector left = one - group.damage;
-      Vector normal = k_n * delta_n * (compression_weakens ? left : (delta_n > zero ? left : one));
-      Vector shear = k_t * delta_t * left;
-      Mask off_path = share_n + power > one;
-      if constexpr (compression_weakens) off_path |= (group.damage > zero) & (group.damage < one);
-      if (__builtin_expect(any(off_path), 0)) {
-        for (int lane = 0; lane < lanes; ++lane) {
-          if (off_path[lane] == 0) continue;
-          const BondForce f = yielding_bond(task, i, group, lane);
-          normal[lane] = f.normal;
-          shear[lane] = f.shear;
-        }
-      }
-      const Vector per_length = normal * inverse;
-      const Vector gx = per_length * rx - shear * ey, gy = per_length * ry + shear * ex;  // f_n n + f_t t: on i
-      force_x += gx;
-      force_y += gy;
-      twice_torque += shear * along;
-      virial_xx += gx * rx;
-      virial_xy += gx * ry;
-      virial_yx += gy * rx;
-      virial_yy += gy * ry;
-    }
-    double fx = sum(force_x), fy = sum(force_y), torque = 0.5 * sum(twice_torque);
-    if (step.near_pairs.active(i) > 0) {
-      NearSlot* slots = step.near_pairs.slots().data();
-      for (std::int32_t k = step.near_pairs.row_begin(i), last = step.near_pairs.row_end(i); k < last; ++k)
-        if (slots[k].bonded == 0) contact_end(task, i, slots[k], fx, fy, torque);
-    }
+    if (step.near_pairs.active(i) == 0) continue;
+    double fx = discs.fx[at(i)], fy = discs.fy[at(i)], torque = discs.torque[at(i)];
+    NearSlot* slots = step.near_pairs.slots().data();
+    for (std::int32_t k = step.near_pairs.row_begin(i), last = step.near_pairs.row_end(i); k < last; ++k)
+      if (slots[k].bonded == 0) contact_end(task, i, slots[k], fx, fy, torque);
     discs.fx[at(i)] = fx;
     discs.fy[at(i)] = fy;
     discs.torque[at(i)] = torque;
   }
-  // Each bond was seen from both ends, with the force on i: minus half of it is its share of sum F_j r.
-  task.sums.virial.xx -= sum(half * virial_xx);
-  task.sums.virial.xy -= sum(half * virial_xy);
-  task.sums.virial.yx -= sum(half * virial_yx);
-  task.sums.virial.yy -= sum(half * virial_yy);
 }
 
-PERFORA_CLONES void chunk_quartic(ChunkTask& task) {
-  chunk_forces<true, false>(task);
-}
-PERFORA_CLONES void chunk_quartic_weak(ChunkTask& task) {
-  chunk_forces<true, true>(task);
-}
-PERFORA_CLONES void chunk_general(ChunkTask& task) {
-  chunk_forces<false, false>(task);
-}
-PERFORA_CLONES void chunk_general_weak(ChunkTask& task) {
-  chunk_forces<false, true>(task);
+/// The loops of one choice; null where this machine has not got the instructions.
+const BondKernels* kernels_of(SimdChoice choice) {
+#if defined(PERFORA_X86_KERNELS)
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  if (choice == SimdChoice::avx512) return avx512 ? &bond_kernels_avx512 : nullptr;
+  if (choice == SimdChoice::avx2) return avx2 ? &bond_kernels_avx2 : nullptr;
+#endif
+  return choice == SimdChoice::portable ? &bond_kernels_portable : nullptr;
 }
 
 class OpenmpBackend final : public ForceBackend {
  public:
-  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads)
-      : bond_(bond), contact_(contact), threads_(threads) {}
+  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads, const BondKernels& kernels)
+      : bond_(bond), contact_(contact), threads_(threads), kernels_(kernels), rows_(kernels.lanes) {}
 
-  void load(const BondNetwork& network, const DiscState& discs) override {
+  void load(const BondNetwork& network, const DiscState& discs, const CellMatrix& start) override {
     const std::int32_t n = discs.size();
-    std::vector<std::int32_t> degree(at(n), 0), lower(at(n) + 1, 0);
-    for (std::int64_t b = 0; b < network.size(); ++b) {
-      const auto id = static_cast<std::size_t>(b);
-      ++lower[at(network.i[id]) + 1];
-      if (network.state[id] == BondState::compacted) continue;
-      ++degree[at(network.i[id])];
-      ++degree[at(network.j[id])];
-    }
+    start_unit_ = unit_of(start, discs);
+    rows_.build(network, n, bond_, start_unit_);
+    std::vector<std::int32_t> lower(at(n) + 1, 0);
+    for (const std::int32_t i : network.i) ++lower[at(i) + 1];
     for (std::int32_t k = 0; k < n; ++k) lower[at(k) + 1] += lower[at(k)];
-    row_.assign(at(n) + 1, 0);
-    for (std::int32_t k = 0; k < n; ++k) row_[at(k) + 1] = row_[at(k)] + (degree[at(k)] + lanes - 1) / lanes;
-    groups_.resize(at(row_.back()));
-    const Vector zero = splat(0.0);
-    for (std::int32_t k = 0; k < n; ++k)
-      for (std::int32_t g = row_[at(k)]; g < row_[at(k) + 1]; ++g) {
-        groups_[at(g)] = {zero, zero, zero, zero, splat(1.0), {k, k, k, k}, {-1, -1, -1, -1}};
-      }
-    // Bonds are sorted by (i, j), so filling in order sorts every row by neighbour.
-    std::vector<std::int32_t> filled(at(n), 0);
-    for (std::int64_t b = 0; b < network.size(); ++b) {
-      const auto id = static_cast<std::size_t>(b);
-      if (network.state[id] == BondState::compacted) continue;
-      for (int end = 0; end < 2; ++end) {
-        const std::int32_t own = end == 0 ? network.i[id] : network.j[id],
-                           other = end == 0 ? network.j[id] : network.i[id];
-        const std::int32_t slot = filled[at(own)]++;
-        if (network.state[id] != BondState::intact) continue;  // keeps its empty place until the rows are compacted
-        Group& group = groups_[at(row_[at(own)] + slot / lanes)];
-        const int lane = slot % lanes;
-        const double sign = end == 0 ? 1.0 : -1.0;
-        group.l0[lane] = network.rest_length[id];
-        group.e0x[lane] = sign * network.direction_x[id];
-        group.e0y[lane] = sign * network.direction_y[id];
-        group.damage[lane] = network.damage[id];
-        group.scale[lane] = 1.0 / (network.strength[id] * zeta_of_damage(bond_, network.damage[id]));
-        group.neighbour[lane] = other;
-        group.bond[lane] = static_cast<std::int32_t>(b);
-      }
-    }
     const std::int32_t chunks = (n + chunk_discs - 1) / chunk_discs;
     tasks_.resize(at(chunks));
     broken_.resize(static_cast<std::size_t>(network.size()));
@@ -296,19 +166,22 @@ class OpenmpBackend final : public ForceBackend {
       ChunkTask& task = tasks_[at(c)];
       task.bond = &bond_;
       task.contact = &contact_;
-      task.groups = groups_.data();
-      task.row = row_.data();
+      task.rows = &rows_;
       task.begin = c * chunk_discs;
       task.end = std::min(n, task.begin + chunk_discs);
       task.broken = broken_.data() + lower[at(task.begin)];
+      rows_.aim(task.sweep, c);
+      task.sweep.twice_alpha = bond_.twice_alpha;
+      task.sweep.context = &task;
+      task.sweep.bond_end = bond_end;
     }
   }
 
   StepSums forces(ForceStep& step) override {
-    const bool quartic = bond_.twice_alpha == 8;
     const bool weak = bond_.damage_in_compression == DamageInCompression::full;
-    const auto kernel =
-        quartic ? (weak ? chunk_quartic_weak : chunk_quartic) : (weak ? chunk_general_weak : chunk_general);
+    const auto kernel = bond_.twice_alpha == 8 ? (weak ? kernels_.quartic_weak : kernels_.quartic)
+                                               : (weak ? kernels_.general_weak : kernels_.general);
+    const double unit = unit_of(step.cell, step.discs);
     const auto count = static_cast<std::int32_t>(tasks_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
     for (std::int32_t c = 0; c < count; ++c) {
@@ -316,7 +189,16 @@ class OpenmpBackend final : public ForceBackend {
       task.step = &step;
       task.broken_count = 0;
       task.sums = {};
-      kernel(task);
+      task.sweep.record = step.discs.record.data();
+      task.sweep.fx = step.discs.fx.data();
+      task.sweep.fy = step.discs.fy.data();
+      task.sweep.torque = step.discs.torque.data();
+      scale(task.sweep, step.cell, unit);
+      kernel(task.sweep);
+      // Each bond was seen from both ends, with the force on i: minus half of it is its share of sum F_j r.
+      const Virial& v = task.sweep.virial;
+      task.sums.virial = {-0.5 * v.xx, -0.5 * v.xy, -0.5 * v.yx, -0.5 * v.yy};
+      chunk_contacts(task);
     }
     StepSums sums;
     for (const ChunkTask& task : tasks_) {
@@ -326,20 +208,37 @@ class OpenmpBackend final : public ForceBackend {
     return sums;
   }
 
-  std::string simd() const override {
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx2") ? "avx2 (double)" : "sse2 (double)";
-#else
-    return "portable (double)";
-#endif
-  }
+  std::string simd() const override { return kernels_.name; }
 
  private:
+  /// One step of the record's x, m.
+  static double unit_of(const CellMatrix& cell, const DiscState& discs) {
+    return std::ldexp(cell.xx, -32 - discs.position_shift);
+  }
+
+  void scale(BondSweep& sweep, const CellMatrix& cell, double unit) const {
+    sweep.unit = unit;
+    sweep.lean = static_cast<float>(cell.xy / cell.xx);
+    sweep.height = static_cast<float>(cell.yy / cell.xx);
+    const double g_yy = (cell.xy * cell.xy + cell.yy * cell.yy) / (cell.xx * cell.xx);
+    sweep.twice_g_xy = static_cast<float>(2.0 * cell.xy / cell.xx);
+    sweep.g_yy = static_cast<float>(g_yy);
+    sweep.g_yy_rest = static_cast<float>(g_yy - static_cast<double>(sweep.g_yy));
+    sweep.rest_stretch = static_cast<float>(start_unit_ / unit);
+    sweep.rest_fraction_unit = static_cast<float>(rows_.rest_fraction_unit() * start_unit_ / unit);
+    sweep.normal_stiffness = static_cast<float>(bond_.normal_stiffness * unit);
+    sweep.tangential_stiffness = static_cast<float>(bond_.tangential_stiffness * unit);
+    sweep.normal_share = static_cast<float>(bond_.inverse_critical_normal * rows_.threshold_unit() * unit);
+    sweep.shear_share = static_cast<float>(bond_.inverse_critical_shear * rows_.threshold_unit() * unit);
+  }
+
   BondLaw bond_;
   ContactLaw contact_;
   int threads_;
-  std::vector<Group> groups_;
-  std::vector<std::int32_t> row_, broken_;
+  double start_unit_ = 1.0;
+  const BondKernels& kernels_;
+  BondRows rows_;
+  std::vector<std::int32_t> broken_;
   std::vector<ChunkTask> tasks_;
 };
 
@@ -356,8 +255,17 @@ void StepSums::add(const StepSums& other) {
   largest_overlap = std::max(largest_overlap, other.largest_overlap);
 }
 
-std::unique_ptr<ForceBackend> make_openmp_backend(const BondLaw& bond, const ContactLaw& contact, int threads) {
-  return std::make_unique<OpenmpBackend>(bond, contact, std::max(1, threads));
+std::vector<SimdChoice> usable_simd() {
+  std::vector<SimdChoice> usable;
+  for (const SimdChoice choice : {SimdChoice::avx512, SimdChoice::avx2, SimdChoice::portable})
+    if (kernels_of(choice) != nullptr) usable.push_back(choice);
+  return usable;
+}
+
+std::unique_ptr<ForceBackend> make_openmp_backend(const BondLaw& bond, const ContactLaw& contact, int threads,
+                                                  SimdChoice simd) {
+  const BondKernels* const kernels = kernels_of(simd == SimdChoice::automatic ? usable_simd().front() : simd);
+  return std::make_unique<OpenmpBackend>(bond, contact, std::max(1, threads), *kernels);
 }
 
 }  // namespace perfora::solver

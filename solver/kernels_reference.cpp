@@ -26,7 +26,7 @@ class ReferenceBackend final : public ForceBackend {
  public:
   ReferenceBackend(const BondLaw& bond, const ContactLaw& contact) : bond_(bond), contact_(contact) {}
 
-  void load(const BondNetwork&, const DiscState&) override {}
+  void load(const BondNetwork&, const DiscState&, const CellMatrix&) override {}
 
   StepSums forces(ForceStep& step) override {
     std::fill(step.discs.fx.begin(), step.discs.fx.end(), 0.0);
@@ -65,18 +65,16 @@ class ReferenceBackend final : public ForceBackend {
     DiscState& discs = step.discs;
     const std::int32_t i = net.i[at(id)], j = net.j[at(id)];
     const Branch r = branch(discs, i, j, step.cell);
-    const double ci = discs.half_cos[at(i)], si = discs.half_sin[at(i)], cj = discs.half_cos[at(j)],
-                 sj = discs.half_sin[at(j)];
-    const BondKinematics k = bond_kinematics(r.x, r.y, net.direction_x[at(id)], net.direction_y[at(id)],
-                                             net.rest_length[at(id)], ci * cj - si * sj, si * cj + ci * sj);
+    const BondKinematics k = kinematics_of(discs, i, j, step.cell, net.direction_x[at(id)], net.direction_y[at(id)],
+                                           net.rest_length[at(id)]);
     const double contact_distance = discs.radius[at(i)] + discs.radius[at(j)];
     const double touch = std::min(contact_distance, net.rest_length[at(id)]);
     const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     const double damage = updated_damage(bond_, k.delta_n, k.delta_t, net.strength[at(id)], net.damage[at(id)]);
     if (damage > net.damage[at(id)]) {
       const BondKinematics old =
-          kinematics_of(discs.record_before[at(i)], discs.record_before[at(j)], step.cell_before,
-                        net.direction_x[at(id)], net.direction_y[at(id)], net.rest_length[at(id)]);
+          kinematics_before(discs, i, j, step.cell_before, net.direction_x[at(id)], net.direction_y[at(id)],
+                            net.rest_length[at(id)]);
       const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
       sums.damage += damageable_energy(bond_, before, now) * (damage - net.damage[at(id)]);
       net.damage[at(id)] = damage;

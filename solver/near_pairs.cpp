@@ -87,6 +87,16 @@ bool NearPairs::outdated(double largest_displacement, const CellMatrix& cell) co
   return 2.0 * largest_displacement + affine >= skin_;
 }
 
+double NearPairs::largest_displacement(const DiscState& discs, const CellMatrix& cell) const {
+  double largest = 0.0;
+  for (std::size_t d = 0; d < reference_x_.size(); ++d) {
+    const double ux = reduced(discs.sx[d] - reference_x_[d]), uy = reduced(discs.sy[d] - reference_y_[d]);
+    const double mx = cell.xx * ux + cell.xy * uy, my = cell.yy * uy;
+    largest = std::max(largest, mx * mx + my * my);
+  }
+  return std::sqrt(largest);
+}
+
 NearSlot* NearPairs::find(std::int32_t i, std::int32_t j) {
   for (std::int32_t k = row_begin(i); k < row_end(i); ++k)
     if (slots_[at(k)].neighbour == j) return &slots_[at(k)];

@@ -31,6 +31,8 @@ class NearPairs {
   /// Whether the list may miss a pair: largest fluctuating displacement since the last rebuild and the change of the
   /// cell against the skin.
   bool outdated(double largest_displacement, const CellMatrix& cell) const;
+  /// Farthest fluctuating displacement of a disc since the last rebuild, m.
+  double largest_displacement(const DiscState& discs, const CellMatrix& cell) const;
   /// A bond i-j just broke: the end in row i becomes a contact candidate. Called once from each end. Does nothing for a
   /// pair that is not near.
   void release(std::int32_t i, std::int32_t j, double touch);

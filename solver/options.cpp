@@ -78,7 +78,13 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("step_factor", dynamics.step_factor, Dimension::ratio, {0.0, 0.95, true, false},
             "Time step over the critical one.")
       .choice("kernel", dynamics.kernel, {{"openmp", KernelChoice::openmp}, {"reference", KernelChoice::reference}},
-              "openmp: vectorised, all threads; reference: plain and sequential, the oracle.");
+              "openmp: vectorised, all threads; reference: plain and sequential, the oracle.")
+      .choice("simd", dynamics.simd,
+              {{"auto", SimdChoice::automatic},
+               {"avx512", SimdChoice::avx512},
+               {"avx2", SimdChoice::avx2},
+               {"portable", SimdChoice::portable}},
+              "Instruction set of the bond kernel; auto: the best this machine has. Equal bits hold on one of them.");
   BoundaryOptions& boundary = options.boundary;
   schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
       .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},

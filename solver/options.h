@@ -16,6 +16,7 @@ enum class NoiseKind { none, perlin, weibull };
 enum class MassScaling { uniform_step, physical };
 enum class FrameChoice { none, few, all };
 enum class KernelChoice { reference, openmp };
+enum class SimdChoice { automatic, avx512, avx2, portable };
 enum class TopBottom { periodic, platens };
 enum class Sides { periodic, walls, free };
 
@@ -63,6 +64,7 @@ struct DynamicsOptions {
   MassScaling mass = MassScaling::uniform_step;
   double step_factor = 0.5;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;
+  SimdChoice simd = SimdChoice::automatic;  ///< of the bond kernel
 };
 
 /// [boundary]: what stands at the edges of the block.

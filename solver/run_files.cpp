@@ -14,7 +14,7 @@
 namespace perfora::solver {
 namespace {
 
-constexpr const char* checkpoint_format = "perfora.checkpoint/2";
+constexpr const char* checkpoint_format = "perfora.checkpoint/3";
 
 /// The configuration without the strain to run to: a stopped run may be resumed to another end.
 std::string without_until(const std::string& config) {
@@ -52,13 +52,14 @@ std::vector<double> pack(const Simulation::Progress& p) {
           p.bond_steps,
           p.cell.xx,
           p.cell.xy,
-          p.cell.yy};
+          p.cell.yy,
+          p.travelled};
 }
 
 Simulation::Progress unpack(const std::vector<double>& v) {
   Simulation::Progress p;
   p.steps = static_cast<std::int64_t>(v.at(0));
-  const std::array<double*, 25> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
+  const std::array<double*, 26> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
                                           &p.ledger.damage,  &p.ledger.friction,  &p.ledger.viscous,
                                           &p.ledger.cundall, &p.virial.xx,        &p.virial.xy,
                                           &p.virial.yx,      &p.virial.yy,        &p.row_sum.xx,
@@ -66,7 +67,7 @@ Simulation::Progress unpack(const std::vector<double>& v) {
                                           &p.row_steps,      &p.peak_stress,      &p.peak_strain,
                                           &p.peak_frozen,    &p.largest_overlap,  &p.largest_asymmetry,
                                           &p.bond_steps,     &p.cell.xx,          &p.cell.xy,
-                                          &p.cell.yy};
+                                          &p.cell.yy,        &p.travelled};
   for (std::size_t k = 0; k < fields.size(); ++k) *fields[k] = v.at(k + 1);
   return p;
 }
@@ -135,12 +136,10 @@ template <class Discs, class Real, class Whole>
 void each_field(Discs& d, const Real& real, const Whole& whole) {
   whole("sx", d.sx);
   whole("sy", d.sy);
+  whole("turn", d.turn);
   real("vx", d.vx);
   real("vy", d.vy);
   real("omega", d.omega);
-  real("angle", d.angle);
-  real("half_cos", d.half_cos);
-  real("half_sin", d.half_sin);
   real("fx", d.fx);
   real("fy", d.fy);
   real("torque", d.torque);
@@ -264,8 +263,6 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   if (s.discs.radius != simulation.discs().radius || s.discs.mass != simulation.discs().mass)
     throw io::InputError({path.string(), 0, ""}, "the checkpoint holds other discs",
                          "a checkpoint goes with the packing it was written for", "start the run anew with --force");
-  s.discs.record.resize(s.discs.sx.size());
-  s.discs.record_before.resize(s.discs.sx.size());
   NearPairs::Snapshot& near = s.near_pairs;
   near.start = file.int32s("/near/start");
   near.neighbour = file.int32s("/near/neighbour");

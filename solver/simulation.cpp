@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace perfora::solver {
@@ -14,28 +15,11 @@ std::size_t at(std::int32_t k) {
 }
 
 constexpr double skin_share = 0.35;  // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
+/// Share of the skin at which a list is renewed when displacements are looked at; below it, looking often would cost
+/// more than a list.
+constexpr double renewal_share = 0.9;
 constexpr std::int64_t compaction_stride = 1024;  // steps between looks at the share of empty slots
 constexpr double compaction_share = 0.02;         // of the intact bonds: then rows are compacted
-
-/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; [C] for the sign of the fluctuating
-/// velocity).
-inline double damped(double force, double velocity, double coefficient) {
-  const double power = force * velocity;
-  return power > 0.0 ? force - coefficient * force : (power < 0.0 ? force + coefficient * force : force);
-}
-
-/// Rotates (c, s) of a half angle by h: exact rotation by 2 atan(q) with q = tan(h/2) to O(h^7); no trigonometric call,
-/// no loss of norm.
-inline void rotate(double& c, double& s, double h) {
-  const double h2 = h * h;
-  const double q = 0.5 * h * (1.0 + h2 * (1.0 / 12.0 + h2 / 120.0));
-  const double inverse = 1.0 / (1.0 + q * q);
-  const double dc = (1.0 - q * q) * inverse, ds = 2.0 * q * inverse;
-  const double nc = c * dc - s * ds, ns = s * dc + c * ds;
-  const double norm = 1.5 - 0.5 * (nc * nc + ns * ns);  // one Newton step back to |.| = 1
-  c = nc * norm;
-  s = ns * norm;
-}
 
 /// sum V_ab (dH H^-1)_ab, the affine part of the pair work, for upper-triangular matrices.
 double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& h) {
@@ -44,16 +28,28 @@ double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& 
   return v.xx * gxx + v.xy * gxy + v.yy * gyy;
 }
 
+/// DiscState::position_shift: how often the cell may be halved so that a branch of `longest` (m) still fits into half
+/// of what is left, down to the shortest edge the run will reach.
+int record_shift(const CellMatrix& start, const SolverOptions& options, double longest_bond, double longest_contact) {
+  constexpr double least_strain = 0.6;  // other loadings than the run's (material tests) stay far below it
+  constexpr int finest = 6;             // 2^-38 of the cell: beyond it floats round more than the record does
+  const double left = 1.0 - std::max(least_strain, options.loading.until);
+  const double edge = std::min(start.xx, left * start.yy);
+  const double longest = std::max(longest_bond, longest_contact);
+  return std::clamp(static_cast<int>(std::floor(std::log2(0.5 * edge / longest))), 0, finest);
+}
+
 }  // namespace
 
 void DiscState::resize(std::size_t n) {
-  sx.resize(n);
-  sy.resize(n);
-  for (auto* field : {&vx, &vy, &omega, &angle, &half_sin, &fx, &fy, &torque, &radius, &mass, &inertia})
-    field->assign(n, 0.0);
-  half_cos.assign(n, 1.0);
+  for (auto* field : {&sx, &sy, &turn, &sx_before, &sy_before, &turn_before}) field->assign(n, 0);
+  for (auto* field : {&vx, &vy, &omega, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
   record.resize(n);
-  record_before.resize(n);
+}
+
+void DiscState::set_angle(std::size_t disc, double angle) {
+  const double turns = angle / (4.0 * std::numbers::pi);
+  turn[disc] = fixed_point(turns - std::floor(turns));
 }
 
 BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {
@@ -104,14 +100,16 @@ Simulation::Simulation(SimulationInput input)
     inverse_mass_.push_back(1.0 / discs_.mass[d]);
     inverse_inertia_.push_back(1.0 / discs_.inertia[d]);
   }
+  discs_.position_shift = record_shift(now_, options_, 2.0 * input.mean_diameter * options_.material.horizon,
+                                       2.0 * largest_radius + skin_share * input.mean_diameter);
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
   near_pairs_.rebuild(discs_, now_, network_);
   walls_ = Walls(std::move(input.walls), contact_law_, 1.0 / bond_law_.inverse_critical_normal, discs_, now_);
   backend_ = options_.dynamics.kernel == KernelChoice::reference
                  ? make_reference_backend(bond_law_, contact_law_)
-                 : make_openmp_backend(bond_law_, contact_law_, threads_);
-  backend_->load(network_, discs_);
+                 : make_openmp_backend(bond_law_, contact_law_, threads_, options_.dynamics.simd);
+  backend_->load(network_, discs_, cell_.start);
   broken_.reserve(static_cast<std::size_t>(network_.size()));
   events_.reserve(static_cast<std::size_t>(network_.size()));
   chunk_sums_.resize((n + chunk_discs - 1) / chunk_discs);
@@ -120,57 +118,42 @@ Simulation::Simulation(SimulationInput input)
 }
 
 void Simulation::refresh_records() {
-  for (std::int32_t d = 0; d < discs_.size(); ++d)
-    discs_.record[at(d)] = {reduced(discs_.sx[at(d)]), reduced(discs_.sy[at(d)]), discs_.half_cos[at(d)],
-                            discs_.half_sin[at(d)]};
-  discs_.record_before = discs_.record;
+  for (std::size_t d = 0; d < discs_.sx.size(); ++d) discs_.refresh_record(d);
+  discs_.sx_before = discs_.sx;
+  discs_.sy_before = discs_.sy;
+  discs_.turn_before = discs_.turn;
 }
 
-void Simulation::kick_and_drift() {
-  std::swap(discs_.record, discs_.record_before);
-  const double dt = time_step_, c = options_.dynamics.cundall_damping;
-  const CellMatrix mid{0.5 * (before_.xx + now_.xx), 0.5 * (before_.xy + now_.xy), 0.5 * (before_.yy + now_.yy)};
-  const double inverse_xx = 1.0 / mid.xx, inverse_yy = 1.0 / mid.yy;
-  const auto& reference_x = near_pairs_.reference_x();
-  const auto& reference_y = near_pairs_.reference_y();
+void Simulation::move_discs() {
+  std::swap(discs_.sx, discs_.sx_before);
+  std::swap(discs_.sy, discs_.sy_before);
+  std::swap(discs_.turn, discs_.turn_before);
+  const KickAndDrift task{discs_,
+                          inverse_mass_.data(),
+                          inverse_inertia_.data(),
+                          time_step_,
+                          options_.dynamics.cundall_damping,
+                          {0.5 * (before_.xx + now_.xx), 0.5 * (before_.xy + now_.xy), 0.5 * (before_.yy + now_.yy)}};
   const auto chunks = static_cast<std::int32_t>(chunk_sums_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-  for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
-    ChunkSums sums;
-    const std::int32_t end = std::min(discs_.size(), (chunk + 1) * chunk_discs);
-    for (std::int32_t d = chunk * chunk_discs; d < end; ++d) {
-      const std::size_t k = at(d);
-      const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
-      const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
-                   torque = damped(discs_.torque[k], w, c);
-      const double nvx = vx + dt * fx * inverse_mass_[k], nvy = vy + dt * fy * inverse_mass_[k],
-                   nw = w + dt * torque * inverse_inertia_[k];
-      // Work of the damping force in this kick, exact for the kick: force times mean velocity.
-      sums.cundall -= 0.5 * dt *
-                      ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) +
-                       (torque - discs_.torque[k]) * (w + nw));
-      discs_.vx[k] = nvx;
-      discs_.vy[k] = nvy;
-      discs_.omega[k] = nw;
-      const double step_y = nvy * dt * inverse_yy;
-      const double step_x = (nvx * dt - mid.xy * step_y) * inverse_xx;
-      discs_.sx[k] += static_cast<std::uint64_t>(static_cast<std::int64_t>(step_x * 0x1p64));
-      discs_.sy[k] += static_cast<std::uint64_t>(static_cast<std::int64_t>(step_y * 0x1p64));
-      discs_.angle[k] += nw * dt;
-      rotate(discs_.half_cos[k], discs_.half_sin[k], 0.5 * nw * dt);
-      discs_.record[k] = {reduced(discs_.sx[k]), reduced(discs_.sy[k]), discs_.half_cos[k], discs_.half_sin[k]};
-      const double ux = reduced(discs_.sx[k] - reference_x[k]), uy = reduced(discs_.sy[k] - reference_y[k]);
-      const double mx = now_.xx * ux + now_.xy * uy, my = now_.yy * uy;
-      sums.displacement = std::max(sums.displacement, mx * mx + my * my);
-    }
-    chunk_sums_[at(chunk)] = sums;
-  }
-  double displacement = 0.0;
-  for (const ChunkSums& sums : chunk_sums_) {
+  for (std::int32_t chunk = 0; chunk < chunks; ++chunk)
+    chunk_sums_[at(chunk)] =
+        kick_and_drift(task, chunk * chunk_discs, std::min(discs_.size(), (chunk + 1) * chunk_discs));
+  double speed_squared = 0.0;
+  for (const KickSums& sums : chunk_sums_) {
     progress_.ledger.cundall += sums.cundall;
-    displacement = std::max(displacement, sums.displacement);
+    speed_squared = std::max(speed_squared, sums.speed_squared);
   }
-  largest_displacement_ = std::sqrt(displacement);
+  progress_.travelled += std::sqrt(speed_squared) * time_step_;
+}
+
+void Simulation::keep_near_pairs() {
+  if (!near_pairs_.outdated(progress_.travelled, now_)) return;
+  // No disc has gone farther than `travelled`; most have gone less.
+  progress_.travelled = near_pairs_.largest_displacement(discs_, now_);
+  if (!near_pairs_.outdated(progress_.travelled / renewal_share, now_)) return;
+  near_pairs_.rebuild(discs_, now_, network_);
+  progress_.travelled = 0.0;
 }
 
 void Simulation::step() {
@@ -179,8 +162,8 @@ void Simulation::step() {
   const Virial s = stress();
   now_ = cell_.next(before_, {s.xx, 0.5 * (s.xy + s.yx), s.yy}, time(), time_step_);
   progress_.cell = now_;
-  kick_and_drift();
-  if (near_pairs_.outdated(largest_displacement_, now_)) near_pairs_.rebuild(discs_, now_, network_);
+  move_discs();
+  keep_near_pairs();
   broken_.clear();
   ForceStep step{discs_,     network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_),
                  time_step_, broken_};
@@ -222,8 +205,8 @@ void Simulation::record_breaks() {
   for (const std::int32_t id : broken_) {
     const std::int32_t i = network_.i[at(id)], j = network_.j[at(id)];
     const BondKinematics k =
-        kinematics_of(discs_.record[at(i)], discs_.record[at(j)], now_, network_.direction_x[at(id)],
-                      network_.direction_y[at(id)], network_.rest_length[at(id)]);
+        kinematics_of(discs_, i, j, now_, network_.direction_x[at(id)], network_.direction_y[at(id)],
+                      network_.rest_length[at(id)]);
     const auto [x, y] = position(i);
     BreakEvent event;
     event.time = time();
@@ -254,7 +237,7 @@ void Simulation::compact_when_due() {
   for (BondState& state : network_.state)
     if (state == BondState::broken) state = BondState::compacted;
   progress_.broken_in_layout = 0.0;
-  backend_->load(network_, discs_);
+  backend_->load(network_, discs_, cell_.start);
 }
 
 Virial Simulation::stress() const {
@@ -295,10 +278,10 @@ Ledger Simulation::ledger() const {
   for (std::int64_t b = 0; b < network_.size(); ++b) {
     const auto id = static_cast<std::size_t>(b);
     if (network_.state[id] != BondState::intact) continue;
-    const std::size_t i = at(network_.i[id]), j = at(network_.j[id]);
-    const BondKinematics k = kinematics_of(discs_.record[i], discs_.record[j], now_, network_.direction_x[id],
-                                           network_.direction_y[id], network_.rest_length[id]);
-    const double touch = std::min(discs_.radius[i] + discs_.radius[j], network_.rest_length[id]);
+    const std::int32_t i = network_.i[id], j = network_.j[id];
+    const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[id], network_.direction_y[id],
+                                           network_.rest_length[id]);
+    const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[id]);
     ledger.elastic_bonds +=
         bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
   }
@@ -306,8 +289,7 @@ Ledger Simulation::ledger() const {
     for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
       const NearSlot& slot = near_pairs_.slots()[at(k)];
       if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b =
-          kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      const BondKinematics b = kinematics_of(discs_, i, slot.neighbour, now_, 1.0, 0.0, 0.0);
       const double overlap = std::max(0.0, slot.touch - b.length);
       ledger.elastic_contacts += 0.5 * (contact_law_.normal_stiffness * overlap * overlap +
                                         contact_law_.tangential_stiffness * slot.history.shear * slot.history.shear);
@@ -322,8 +304,7 @@ std::int64_t Simulation::contacts() const {
     for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
       const NearSlot& slot = near_pairs_.slots()[at(k)];
       if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b =
-          kinematics_of(discs_.record[at(i)], discs_.record[at(slot.neighbour)], now_, 1.0, 0.0, 0.0);
+      const BondKinematics b = kinematics_of(discs_, i, slot.neighbour, now_, 1.0, 0.0, 0.0);
       if (b.length < slot.touch) ++count;
     }
   }
@@ -350,7 +331,10 @@ void Simulation::restore(Snapshot s) {
   progress_ = s.progress;
   now_ = progress_.cell;
   before_ = now_;  // only the next step's drift asks for it, and sets it itself
+  const int shift = discs_.position_shift;
   discs_ = std::move(s.discs);
+  discs_.position_shift = shift;
+  discs_.record.resize(discs_.sx.size());
   network_.damage = std::move(s.damage);
   for (std::size_t b = 0; b < s.bond_state.size(); ++b) network_.state[b] = static_cast<BondState>(s.bond_state[b]);
   near_pairs_.restore(s.near_pairs);
@@ -358,7 +342,7 @@ void Simulation::restore(Snapshot s) {
   events_.reserve(static_cast<std::size_t>(network_.size()));
   events_.assign(s.events.begin(), s.events.end());
   refresh_records();
-  backend_->load(network_, discs_);
+  backend_->load(network_, discs_, cell_.start);
 }
 
 }  // namespace perfora::solver

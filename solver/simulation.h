@@ -8,6 +8,7 @@
 
 #include "geometry/packing.h"
 #include "solver/cell.h"
+#include "solver/integrator.h"
 #include "solver/kernels.h"
 #include "solver/mass.h"
 #include "solver/options.h"
@@ -97,7 +98,8 @@ class Simulation {
     double peak_stress = 0.0, peak_strain = 0.0, peak_frozen = 0.0;
     double largest_overlap = 0.0, largest_asymmetry = 0.0;
     double bond_steps = 0.0;
-    CellMatrix cell;  ///< H
+    CellMatrix cell;         ///< H
+    double travelled = 0.0;  ///< no disc has moved farther than this since the near pairs were listed, m
   };
 
   /// For checkpoint.cpp: everything that changes during a run.
@@ -115,7 +117,8 @@ class Simulation {
   void restore(Snapshot snapshot);
 
  private:
-  void kick_and_drift();
+  void move_discs();
+  void keep_near_pairs();
   void account(const StepSums& sums, const CellMatrix& before);
   void record_breaks();
   void compact_when_due();
@@ -136,12 +139,8 @@ class Simulation {
   std::unique_ptr<ForceBackend> backend_;
   std::vector<std::int32_t> broken_;
   std::vector<BreakEvent> events_;
-  struct ChunkSums {
-    double cundall = 0.0, displacement = 0.0;
-  };
-  std::vector<ChunkSums> chunk_sums_;
+  std::vector<KickSums> chunk_sums_;
   Progress progress_;
-  double largest_displacement_ = 0.0;
 };
 
 /// The law of a design's material for this disc size.

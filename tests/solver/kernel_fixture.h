@@ -28,15 +28,20 @@ struct KernelCase {
         discs, network, near_pairs, cell, cell_before, solver::velocity_gradient(cell_before, cell, dt), dt, broken};
     return backend.forces(step);
   }
-  /// Sets records from positions and angles, as the drift does; `before` keeps the old ones.
+  /// Ends a drift at the positions and angles that were set: records follow, and the places of the last call become the
+  /// drift's start.
   void move_done() {
-    discs.record_before = discs.record;
-    for (std::size_t d = 0; d < discs.sx.size(); ++d) {
-      discs.half_cos[d] = std::cos(0.5 * discs.angle[d]);
-      discs.half_sin[d] = std::sin(0.5 * discs.angle[d]);
-      discs.record[d] = {solver::reduced(discs.sx[d]), solver::reduced(discs.sy[d]), discs.half_cos[d],
-                         discs.half_sin[d]};
-    }
+    discs.sx_before = last_x.empty() ? discs.sx : last_x;
+    discs.sy_before = last_y.empty() ? discs.sy : last_y;
+    discs.turn_before = last_turn.empty() ? discs.turn : last_turn;
+    last_x = discs.sx;
+    last_y = discs.sy;
+    last_turn = discs.turn;
+    for (std::size_t d = 0; d < discs.sx.size(); ++d) discs.refresh_record(d);
+  }
+  std::vector<std::uint64_t> last_x, last_y, last_turn;
+  void turn(const std::vector<double>& angle) {
+    for (std::size_t d = 0; d < angle.size(); ++d) discs.set_angle(d, angle[d]);
   }
   void place(std::int32_t disc, double x, double y) {
     const double sy = y / cell.yy, sx = (x - cell.xy * sy) / cell.xx;
@@ -102,7 +107,7 @@ inline KernelCase random_case(std::uint64_t seed, double share, solver::BondLaw 
     c.discs.sx[d] += static_cast<std::uint64_t>(static_cast<std::int64_t>(u(-move, move) / packing.width * 0x1p63) * 2);
     c.discs.sy[d] +=
         static_cast<std::uint64_t>(static_cast<std::int64_t>(u(-move, move) / packing.height * 0x1p63) * 2);
-    c.discs.angle[d] = u(-move, move) / pitch;
+    c.discs.set_angle(d, u(-move, move) / pitch);
   }
   for (std::size_t b = 0; b < c.network.damage.size(); ++b) {
     c.network.strength[b] = u(0.5, 1.6);

@@ -152,11 +152,10 @@ void same_state(const Simulation& a, const Simulation& b, const Compare& note) {
   EXPECT_EQ(a.discs().sy, b.discs().sy) << note;
   EXPECT_EQ(a.discs().vx, b.discs().vx) << note;
   EXPECT_EQ(a.discs().vy, b.discs().vy) << note;
-  EXPECT_EQ(a.discs().angle, b.discs().angle) << note;
+  EXPECT_EQ(a.discs().turn, b.discs().turn) << note;
   EXPECT_EQ(a.discs().fx, b.discs().fx) << note;
   EXPECT_EQ(a.discs().torque, b.discs().torque) << note;
   EXPECT_EQ(a.discs().omega, b.discs().omega) << note;
-  EXPECT_EQ(a.discs().half_cos, b.discs().half_cos) << note;
   EXPECT_EQ(a.network().damage, b.network().damage) << note;
   EXPECT_EQ(a.ledger().sum(), b.ledger().sum()) << note;
   EXPECT_EQ(a.ledger().external_work, b.ledger().external_work) << note;

@@ -88,7 +88,7 @@ Equilibrium relax(const Block& block, const CellMatrix& strain) {
     const double dy = now_y - start_y - std::round(now_y - start_y), dx = now_x - start_x - std::round(now_x - start_x);
     e.x.push_back(h.xx * dx + h.xy * dy);
     e.y.push_back(h.yy * dy);
-    e.angle.push_back(s.discs().angle[at]);
+    e.angle.push_back(s.discs().angle(at));
   }
   return e;
 }
@@ -197,9 +197,7 @@ std::vector<std::int32_t> damaged_bonds(const Block& block, const ElasticRespons
   input.mean_diameter = mean_diameter;
   Simulation s(std::move(input));
   for (std::size_t d = 0; d < deformed.x.size(); ++d) {
-    s.discs().angle[d] = -strain * u[3 * d + 2];
-    s.discs().half_cos[d] = std::cos(0.5 * s.discs().angle[d]);
-    s.discs().half_sin[d] = std::sin(0.5 * s.discs().angle[d]);
+    s.discs().set_angle(d, -strain * u[3 * d + 2]);
   }
   s.refresh_records();
   constexpr int steps_to_rest = 4000;

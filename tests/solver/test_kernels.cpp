@@ -44,7 +44,7 @@ TEST(ReferenceKernel, PureShearByRotation) {
   for (const double zeta : {0.2, 0.98, 1.03, 1.08}) {
     KernelCase c = two_discs(l0);
     const double theta = std::asin(zeta * dt0 / l0);
-    c.discs.angle = {theta, theta};
+    c.turn({theta, theta});
     c.move_done();
     c.evaluate(*reference(c));
     const double damage = zeta > 1.0 ? (zeta - 1.0) / 0.1 : 0.0;
@@ -69,7 +69,7 @@ TEST(ReferenceKernel, CompressionShearAndMixed) {
       const double length = l0 + a * dn0;
       const double theta = std::asin(b * dt0 / length);
       c.place(1, 0.005 + length, 0.005);
-      c.discs.angle = {theta, theta};
+      c.turn({theta, theta});
       c.move_done();
       const StepSums sums = c.evaluate(*reference(c));
       const double damage = wanted <= 1.0 ? 0.0 : wanted >= 1.1 ? 1.0 : (wanted - 1.0) / 0.1;
@@ -108,7 +108,7 @@ TEST(ReferenceKernel, RigidRotationMakesNoForce) {
   for (const double theta : {0.1, 1.0, std::numbers::pi, 2.0 * std::numbers::pi, 10.0, 100.0, -100.0}) {
     KernelCase c = two_discs(l0);
     c.place(1, 0.005 + l0 * std::cos(theta), 0.005 + l0 * std::sin(theta));
-    c.discs.angle = {theta, theta};
+    c.turn({theta, theta});
     c.move_done();
     c.evaluate(*reference(c));
     const double rounding = 1e-9 * k_n * dn0;  // 100 rad in double carries 1e-14 rad, times l0 over delta0: 1e-11
@@ -122,8 +122,8 @@ TEST(ReferenceKernel, RigidRotationMakesNoForce) {
 // One disc turned by 2 pi more than the other is the same state: e -> -e.
 TEST(ReferenceKernel, WrappingOneDiscIsHarmless) {
   KernelCase c = two_discs(l0), d = two_discs(l0);
-  c.discs.angle = {0.004, 0.002};
-  d.discs.angle = {0.004 + 2.0 * std::numbers::pi, 0.002};
+  c.turn({0.004, 0.002});
+  d.turn({0.004 + 2.0 * std::numbers::pi, 0.002});
   for (KernelCase* k : {&c, &d}) {
     k->place(1, 0.005 + l0 + 0.5e-6, 0.005 + 2e-6);
     k->move_done();
@@ -168,7 +168,7 @@ TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
   c.discs.resize(n);
   c.discs.radius = packing.radius;
   c.discs.mass.assign(n, 1e-3);
-  c.discs.angle = angle;
+  c.turn(angle);
   for (std::size_t d = 0; d < n; ++d) c.place(static_cast<std::int32_t>(d), packing.x[d] + dx[d], packing.y[d] + dy[d]);
   c.move_done();
   c.near_pairs.configure(static_cast<std::int32_t>(n), 0.24e-3, 0.1e-3);
@@ -193,8 +193,7 @@ TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
   }
 }
 
-/// Every backend against the reference: the same cases. Tolerance: both are double; sums of some 25 terms in another
-/// order differ by a few 1e-15 of the largest term, and 1/|r| times against division adds as much.
+/// Every backend against the reference: the same cases, on every instruction set this machine has.
 struct Option {
   const char* name;
   BondLaw law;
@@ -222,40 +221,96 @@ std::vector<Option> options() {
   return list;
 }
 
-TEST(Backends, OpenmpAgreesWithTheReferenceBondByBond) {
+const char* name_of(SimdChoice simd) {
+  switch (simd) {
+    case SimdChoice::avx512:
+      return "avx512";
+    case SimdChoice::avx2:
+      return "avx2";
+    default:
+      return "portable";
+  }
+}
+
+class EverySimd : public ::testing::TestWithParam<SimdChoice> {};
+
+INSTANTIATE_TEST_SUITE_P(Backends, EverySimd, ::testing::ValuesIn(usable_simd()),
+                         [](const auto& simd) { return std::string(name_of(simd.param)); });
+
+// One bond, of any direction, length, turn and damage, in any place of the cell of Table 1: each force within 1e-4 of
+// the critical stretch. Half a unit in the last place of 1.5 mm is 7e-11 m, 4.6e-5 of the critical stretch, and the
+// kernel rounds its way to the stretch four times: once whole, twice half (bond_kernel_body.h).
+TEST_P(EverySimd, OneBondIsWithinATenThousandthOfTheCriticalStretch) {
+  test::Uniform u(77);
+  double worst = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const double length = u(0.4e-3, 1.5e-3), direction = u(0.0, 2.0 * std::numbers::pi), theta = u(-10.0, 10.0);
+    KernelCase c = two_discs(length);
+    c.cell = c.cell_before = {0.15, 0.0, 0.15 * u(0.4, 1.0)};
+    c.discs.position_shift = 3;
+    c.network.direction_x[0] = std::cos(direction);
+    c.network.direction_y[0] = std::sin(direction);
+    c.network.strength[0] = 10.0;  // far from yielding: off the vector path all is double
+    c.network.damage[0] = k % 3 == 0 ? static_cast<double>(static_cast<float>(u(0.0, 0.9))) : 0.0;
+    const double stretch = u(-3.0, 3.0) * dn0, shear = u(-2.0, 2.0) * dt0, x = u(0.0, 0.15), y = u(0.0, 0.05);
+    const double at = direction + theta + shear / length;
+    c.place(0, x, y);
+    c.place(1, x + (length + stretch) * std::cos(at), y + (length + stretch) * std::sin(at));
+    c.turn({theta + 1e-3, theta - 1e-3});
+    c.move_done();
+    c.move_done();
+    KernelCase d = c;
+    c.evaluate(*reference(c));
+    const auto tested = make_openmp_backend(d.bond, d.contact, 1, GetParam());
+    tested->load(d.network, d.discs, {0.15, 0.0, 0.15});
+    d.evaluate(*tested);
+    const double off = std::hypot(c.discs.fx[0] - d.discs.fx[0], c.discs.fy[0] - d.discs.fy[0]);
+    worst = std::max(worst, off / (k_n * dn0));
+    ASSERT_NEAR(c.discs.torque[0], d.discs.torque[0], 1e-4 * k_n * dn0 * length);
+    ASSERT_NEAR(c.discs.fx[0] + c.discs.fx[1], 0.0, 1e-12);
+    ASSERT_EQ(d.discs.fx[0], -d.discs.fx[1]);
+    ASSERT_EQ(d.discs.fy[0], -d.discs.fy[1]);
+  }
+  EXPECT_LT(worst, 1e-4);
+  RecordProperty("worst_share_of_critical_stretch", std::to_string(worst));
+}
+
+TEST_P(EverySimd, AgreesWithTheReferenceBondByBond) {
   double friction = 0.0, overlap = 0.0;  // over all cases: contacts must have been among what is compared
   for (const Option& option : options())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       KernelCase a = test::random_case(seed, option.share, option.law, option.lean);
       KernelCase b = test::random_case(seed, option.share, option.law, option.lean);
       const auto oracle = make_reference_backend(a.bond, a.contact);
-      const auto tested = make_openmp_backend(b.bond, b.contact, 2);
-      tested->load(b.network, b.discs);
+      const auto tested = make_openmp_backend(b.bond, b.contact, 2, GetParam());
+      tested->load(b.network, b.discs, b.cell_before);
       for (int repeat = 0; repeat < 3; ++repeat) {  // the second pass sees the damage and breaks of the first
         const StepSums s = a.evaluate(*oracle), t = b.evaluate(*tested);
         std::sort(a.broken.begin(), a.broken.end());
         std::sort(b.broken.begin(), b.broken.end());
         ASSERT_EQ(a.broken, b.broken) << option.name;
+        // Some 25 bonds a disc, each within 1e-4 of the critical stretch: five times that for their random sum.
+        const double close = 5e-4 * k_n * dn0, lever = 1e-3;
         double largest = 0.0;
-        for (std::size_t d = 0; d < a.discs.fx.size(); ++d) largest = std::max(largest, std::fabs(a.discs.fx[d]));
-        ASSERT_GT(largest, 0.0);
-        const double close = 1e-11 * std::max(largest, 1.0);
         for (std::size_t d = 0; d < a.discs.fx.size(); ++d) {
           ASSERT_NEAR(a.discs.fx[d], b.discs.fx[d], close) << option.name << " disc " << d;
           ASSERT_NEAR(a.discs.fy[d], b.discs.fy[d], close) << option.name;
-          ASSERT_NEAR(a.discs.torque[d], b.discs.torque[d], close * 1e-3) << option.name;
+          ASSERT_NEAR(a.discs.torque[d], b.discs.torque[d], close * lever) << option.name;
+          largest = std::max(largest, std::fabs(a.discs.fx[d]));
         }
+        ASSERT_GT(largest, 100.0 * close);
         for (std::size_t k = 0; k < a.network.damage.size(); ++k) {
-          ASSERT_NEAR(a.network.damage[k], b.network.damage[k], 1e-8)
-              << option.name;  // 1/(zeta_max-1) and 1/delta0 amplify 1e-19 m
+          ASSERT_NEAR(a.network.damage[k], b.network.damage[k], 6e-8) << option.name;  // kept in single precision
           ASSERT_EQ(a.network.state[k], b.network.state[k]) << option.name;
         }
-        const double scale = std::fabs(s.virial.xx) + std::fabs(s.virial.yy) + std::fabs(s.virial.xy);
-        EXPECT_NEAR(s.virial.xx, t.virial.xx, 1e-11 * scale);
-        EXPECT_NEAR(s.virial.xy, t.virial.xy, 1e-11 * scale);
-        EXPECT_NEAR(s.virial.yx, t.virial.yx, 1e-11 * scale);
-        EXPECT_NEAR(s.virial.yy, t.virial.yy, 1e-11 * scale);
-        EXPECT_NEAR(s.damage, t.damage, 1e-9 * std::fabs(s.damage) + 1e-18);
+        // Forces are within 1e-4 of k_n dn0 each, at branches of at most 1.5 mm, and some 2,000 of them add up at
+        // random; lengths of the cell round to 3e-8 of strain, of a modulus of 150 MPa over 49 mm2.
+        const double virial_close = std::sqrt(2000.0) * 1e-4 * k_n * dn0 * 1.5e-3 + 3e-8 * 150e6 * 49e-6;
+        EXPECT_NEAR(s.virial.xx, t.virial.xx, virial_close);
+        EXPECT_NEAR(s.virial.xy, t.virial.xy, virial_close);
+        EXPECT_NEAR(s.virial.yx, t.virial.yx, virial_close);
+        EXPECT_NEAR(s.virial.yy, t.virial.yy, virial_close);
+        EXPECT_NEAR(s.damage, t.damage, 1e-6 * std::fabs(s.damage) + 1e-18);  // of the damage in single precision
         EXPECT_NEAR(s.friction, t.friction, 1e-9 * std::fabs(s.friction) + 1e-15);
         EXPECT_NEAR(s.viscous, t.viscous, 1e-9 * std::fabs(s.viscous) + 1e-15);
         EXPECT_NEAR(s.largest_overlap, t.largest_overlap, 1e-16);
@@ -268,6 +323,26 @@ TEST(Backends, OpenmpAgreesWithTheReferenceBondByBond) {
     }
   EXPECT_GT(friction, 0.0);
   EXPECT_GT(overlap, 0.0);
+}
+
+// Cosines and sines of the fixed-point turn: double ones to rounding (series error 1e-17, a few operations), single ones
+// in the record to half a unit in the last place of 1 and what the argument's rounding adds.
+TEST(Turns, CosineAndSine) {
+  test::Uniform u(5);
+  DiscState discs;
+  discs.resize(1);
+  for (int k = 0; k < 20000; ++k) {
+    const double angle = k < 10 ? 0.5 * std::numbers::pi * k : u(-6.28, 6.28);
+    discs.set_angle(0, angle);
+    discs.refresh_record(0);
+    const double half = 0.5 * angle;
+    const CosineSine exact = cosine_sine(discs.turn[0]);
+    ASSERT_NEAR(exact.c, std::cos(half), 1e-15);
+    ASSERT_NEAR(exact.s, std::sin(half), 1e-15);
+    ASSERT_NEAR(static_cast<double>(discs.record[0].c), std::cos(half), 1.5e-7);
+    ASSERT_NEAR(static_cast<double>(discs.record[0].s), std::sin(half), 1.5e-7);
+    ASSERT_NEAR(std::remainder(discs.angle(0) - angle, 4.0 * std::numbers::pi), 0.0, 1e-14);
+  }
 }
 
 }  // namespace

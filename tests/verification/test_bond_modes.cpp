@@ -13,8 +13,7 @@ namespace {
 constexpr double diameter = 0.5e-3;
 
 void turn(solver::Simulation& s, std::size_t disc, double angle) {
-  s.discs().half_cos[disc] = std::cos(0.5 * angle);
-  s.discs().half_sin[disc] = std::sin(0.5 * angle);
+  s.discs().set_angle(disc, angle);
 }
 
 /// Sum over the bonds of disc `disc`, but for the one to `other`, of k_t l^2 phi^2/8: each bond sees half its turn.

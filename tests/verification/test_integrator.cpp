@@ -41,7 +41,7 @@ End end_of(const solver::Simulation& s) {
     const auto [x, y] = s.position(d);
     e.x.push_back(x);
     e.y.push_back(y);
-    e.angle.push_back(s.discs().angle[static_cast<std::size_t>(d)]);
+    e.angle.push_back(s.discs().angle(static_cast<std::size_t>(d)));
   }
   return e;
 }
