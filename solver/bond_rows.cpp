@@ -14,7 +14,7 @@ std::size_t at(std::int64_t k) {
 }
 
 enum Field { e0x = 0, e0y = 1, l0 = 2, neighbour_offset = 3 };
-constexpr double largest_stored = 65535.0;  // of a 16-bit threshold
+constexpr double largest_stored = 65535.0;                             // of a 16-bit threshold
 constexpr double half_last_place = 0x1p-24, largest_fraction = 127.0;  // of floats and of what is left, in 8 bits
 
 }  // namespace
@@ -125,7 +125,8 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
       *field(slot, l0) = held;
       rest_fraction_[at(slot)] =
           static_cast<std::int8_t>(std::lround((rest - static_cast<double>(held)) / rest_fraction_unit_));
-      const auto offset = static_cast<std::int32_t>(static_cast<std::int64_t>(other) * std::int64_t{sizeof(DiscRecord)});
+      const auto offset =
+          static_cast<std::int32_t>(static_cast<std::int64_t>(other) * std::int64_t{sizeof(DiscRecord)});
       std::memcpy(field(slot, neighbour_offset), &offset, sizeof offset);
       bond_[at(slot)] = static_cast<std::int32_t>(b);
       const double damage = network.damage[at(b)];

@@ -1,6 +1,6 @@
 // What is here: the bonds of all discs as the vector kernels read them: sliced rows, one disc a lane (SELL-C-sigma:
 // Kreutzer et al., SIAM J. Sci. Comput. 36, 2014, with sigma = a chunk of discs). What is not: the loop over them
-// (bond_kernel_body.h), the law.
+// (bond_sweep.h), the law.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 #include <new>
 #include <vector>
 
-#include "solver/bond_kernel.h"
 #include "solver/bond_network.h"
 #include "solver/laws.h"
+#include "solver/vector_kernels.h"
 
 namespace perfora::solver {
 
@@ -28,8 +28,8 @@ struct CacheLineAllocator {
 };
 
 /// Every bond stands in the rows of both its discs ("full list"), as seen from there. The `lanes` discs of a slice have
-/// about equally many bonds: within a chunk, discs are sorted by their number of bonds. Rows are sorted by neighbour, so
-/// that forces are summed in an order that depends on nothing else.
+/// about equally many bonds: within a chunk, discs are sorted by their number of bonds. Rows are sorted by neighbour,
+/// so that forces are summed in an order that depends on nothing else.
 class BondRows {
  public:
   explicit BondRows(int lanes) : lanes_(lanes) {}

@@ -21,8 +21,8 @@ struct YieldingBond {
 /// First yield as the height shrinks at fixed width, every bond linear until then. A bond that would yield only beyond
 /// a strain of 1 never does.
 struct FirstYield {
-  double strain = 0.0;                    ///< of the first bond; infinite where no bond yields
-  double stress = 0.0;                    ///< vertical stress there, Pa, compression positive; NaN or infinite where no bond yields
+  double strain = 0.0;  ///< of the first bond; infinite where no bond yields
+  double stress = 0.0;  ///< vertical stress there, Pa, compression positive; NaN or infinite where no bond yields
   double lateral_stress = 0.0;            ///< horizontal stress there, Pa
   std::vector<double> disc_strain;        ///< strain at which the first of a disc's bonds yields; infinite: none does
   std::vector<YieldingBond> first_bonds;  ///< the first bond and all within `near_first` of its strain, in that order

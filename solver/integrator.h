@@ -27,8 +27,8 @@ struct KickAndDrift {
 };
 
 struct KickSums {
-  double cundall = 0.0;         ///< dissipated by the damping in this kick, J/m: force times mean velocity, exact
-  double speed_squared = 0.0;   ///< the largest v'^2 after the kick, m2/s2
+  double cundall = 0.0;        ///< dissipated by the damping in this kick, J/m: force times mean velocity, exact
+  double speed_squared = 0.0;  ///< the largest v'^2 after the kick, m2/s2
 };
 
 /// v' and omega to the next half step with the forces held, then positions and angles by dt; records are brought up to

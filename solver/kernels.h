@@ -35,9 +35,14 @@ struct ForceStep {
 class ForceBackend {
  public:
   virtual ~ForceBackend() = default;
-  /// Builds the backend's own layout from the network; `start` is the cell at the start of the run. Bonds that are `compacted` are left out; `broken` ones keep an
-  /// empty slot, so that a restored run sums in the same order as the run it goes on from.
+  /// Builds the backend's own layout from the network; `start` is the cell at the start of the run. Bonds that are
+  /// `compacted` are left out; `broken` ones keep an empty slot, so that a restored run sums in the same order as the
+  /// run it goes on from.
   virtual void load(const BondNetwork& network, const DiscState& discs, const CellMatrix& start) = 0;
+  /// Near pairs have been listed anew or restored.
+  virtual void list(const NearPairs& near_pairs, const DiscState& discs) = 0;
+  /// Brings the histories of the contacts in the near pairs up to date: to be called before anybody reads them.
+  virtual void collect(NearPairs& near_pairs) const = 0;
   virtual StepSums forces(ForceStep& step) = 0;
   /// Instruction set it runs with, for the record.
   virtual std::string simd() const = 0;

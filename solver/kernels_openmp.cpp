@@ -1,16 +1,14 @@
 // What is here: the vectorised OpenMP backend. Each disc sums all its own bonds and contacts ("full list") in fixed
-// order, so no two threads write the same place and the bits do not depend on their number. Bonds go through the vector
-// loop of the best instruction set the machine has (bond_kernel.h); those near their yield surface leave it and go
-// through laws.h one by one in double precision. What is not: the vector loop, the law itself.
+// order, so no two threads write the same place and the bits do not depend on their number. Both go through the vector
+// loops of the best instruction set the machine has (vector_kernels.h); bonds near their yield surface leave it and go
+// through laws.h one by one in double precision. What is not: the vector loops, the law itself.
 #include <algorithm>
 #include <cmath>
 
-
-#include "solver/bond_kernel.h"
 #include "solver/bond_rows.h"
+#include "solver/contact_rows.h"
 #include "solver/kernels.h"
-
-#define PERFORA_INLINE __attribute__((always_inline)) inline
+#include "solver/vector_kernels.h"
 
 namespace perfora::solver {
 namespace {
@@ -24,12 +22,14 @@ struct ChunkTask {
   const BondLaw* bond;
   const ContactLaw* contact;
   BondRows* rows;
+  ContactRows* contact_rows;
   ForceStep* step;
   std::int32_t begin, end;  ///< discs
   std::int32_t* broken;     ///< room for the bonds whose lower disc is in this chunk
   std::int32_t broken_count;
   StepSums sums;
   BondSweep sweep;
+  ContactSweep contact_sweep;
 };
 
 /// Off the vector path: one end of a bond near its yield surface (or, with damage in compression, damaged). Updates D,
@@ -63,7 +63,8 @@ BondEndForce bond_end(void* context, std::int32_t i, std::int64_t slot) {
         step.network.state[at(id)] = BondState::broken;
         task.broken[task.broken_count++] = id;
       }
-      step.near_pairs.release(i, j, touch);
+      const std::int32_t pair = step.near_pairs.release(i, j, touch);
+      if (pair >= 0) task.contact_rows->open(step.near_pairs, i, pair, discs, *task.contact);
       task.rows->clear(slot, i);
     } else {
       task.rows->set_damage(slot, damage, 1.0 / (strength * zeta_of_damage(law, damage)));
@@ -75,82 +76,27 @@ BondEndForce bond_end(void* context, std::int32_t i, std::int64_t slot) {
   return {f.normal, f.shear};
 }
 
-/// One end of a contact, seen from disc i; adds to its force and torque.
-PERFORA_INLINE void contact_end(ChunkTask& task, std::int32_t i, NearSlot& slot, double& fx, double& fy,
-                                double& torque) {
-  ForceStep& step = *task.step;
-  const DiscState& discs = step.discs;
-  const std::int32_t j = slot.neighbour;
-  const double dx = reduced(discs.sx[at(j)] - discs.sx[at(i)]), dy = reduced(discs.sy[at(j)] - discs.sy[at(i)]);
-  const double rx = step.cell.xx * dx + step.cell.xy * dy, ry = step.cell.yy * dy;
-  const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
-  const double square = rx * rx + ry * ry;
-  if (square > sum_radii * sum_radii) slot.touch = sum_radii;
-  const bool open = square >= slot.touch * slot.touch;
-  if (open && slot.history.shear == 0.0 && slot.history.viscous_force == 0.0) return;
-  const double length = std::sqrt(square);
-  const double nx = rx / length, ny = ry / length;
-  const VelocityGradient& l = step.gradient;
-  const double ux = discs.vx[at(j)] - discs.vx[at(i)] + (l.xx * rx + l.xy * ry);
-  const double uy = discs.vy[at(j)] - discs.vy[at(i)] + l.yy * ry;
-  const double v_n = ux * nx + uy * ny;
-  const double overlap = slot.touch - length;
-  const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
-  const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
-  if (!(overlap > 0.0)) {
-    const ContactForce lost = contact_opening(*task.contact, v_n, v_t, step.dt, slot.history);
-    task.sums.friction += 0.5 * lost.friction;
-    task.sums.viscous += 0.5 * lost.viscous;
-    return;
-  }
-  const double effective_mass = discs.mass[at(i)] * discs.mass[at(j)] / (discs.mass[at(i)] + discs.mass[at(j)]);
-  const ContactForce f = contact_force(*task.contact, overlap, v_n, v_t, effective_mass, step.dt, slot.history);
-  const double px = f.normal * nx + f.shear * ny, py = f.normal * ny - f.shear * nx;  // force on j
-  fx -= px;
-  fy -= py;
-  torque += lever_i * f.shear;
-  Virial& v = task.sums.virial;
-  v.xx += 0.5 * (px * rx);
-  v.xy += 0.5 * (px * ry);
-  v.yx += 0.5 * (py * rx);
-  v.yy += 0.5 * (py * ry);
-  task.sums.friction += 0.5 * f.friction;
-  task.sums.viscous += 0.5 * f.viscous;
-  task.sums.largest_overlap = std::max(task.sums.largest_overlap, overlap);
-}
-
-/// Contacts of the chunk's discs, on top of the bond forces.
-void chunk_contacts(ChunkTask& task) {
-  ForceStep& step = *task.step;
-  DiscState& discs = step.discs;
-  for (std::int32_t i = task.begin; i < task.end; ++i) {
-    if (step.near_pairs.active(i) == 0) continue;
-    double fx = discs.fx[at(i)], fy = discs.fy[at(i)], torque = discs.torque[at(i)];
-    NearSlot* slots = step.near_pairs.slots().data();
-    for (std::int32_t k = step.near_pairs.row_begin(i), last = step.near_pairs.row_end(i); k < last; ++k)
-      if (slots[k].bonded == 0) contact_end(task, i, slots[k], fx, fy, torque);
-    discs.fx[at(i)] = fx;
-    discs.fy[at(i)] = fy;
-    discs.torque[at(i)] = torque;
-  }
-}
-
 /// The loops of one choice; null where this machine has not got the instructions.
-const BondKernels* kernels_of(SimdChoice choice) {
+const VectorKernels* kernels_of(SimdChoice choice) {
 #if defined(PERFORA_X86_KERNELS)
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-  if (choice == SimdChoice::avx512) return avx512 ? &bond_kernels_avx512 : nullptr;
-  if (choice == SimdChoice::avx2) return avx2 ? &bond_kernels_avx2 : nullptr;
+  if (choice == SimdChoice::avx512) return avx512 ? &vector_kernels_avx512 : nullptr;
+  if (choice == SimdChoice::avx2) return avx2 ? &vector_kernels_avx2 : nullptr;
 #endif
-  return choice == SimdChoice::portable ? &bond_kernels_portable : nullptr;
+  return choice == SimdChoice::portable ? &vector_kernels_portable : nullptr;
 }
 
 class OpenmpBackend final : public ForceBackend {
  public:
-  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads, const BondKernels& kernels)
-      : bond_(bond), contact_(contact), threads_(threads), kernels_(kernels), rows_(kernels.lanes) {}
+  OpenmpBackend(const BondLaw& bond, const ContactLaw& contact, int threads, const VectorKernels& kernels)
+      : bond_(bond),
+        contact_(contact),
+        threads_(threads),
+        kernels_(kernels),
+        rows_(kernels.lanes),
+        contact_rows_(kernels.lanes) {}
 
   void load(const BondNetwork& network, const DiscState& discs, const CellMatrix& start) override {
     const std::int32_t n = discs.size();
@@ -167,6 +113,7 @@ class OpenmpBackend final : public ForceBackend {
       task.bond = &bond_;
       task.contact = &contact_;
       task.rows = &rows_;
+      task.contact_rows = &contact_rows_;
       task.begin = c * chunk_discs;
       task.end = std::min(n, task.begin + chunk_discs);
       task.broken = broken_.data() + lower[at(task.begin)];
@@ -176,6 +123,14 @@ class OpenmpBackend final : public ForceBackend {
       task.sweep.bond_end = bond_end;
     }
   }
+
+  void list(const NearPairs& near_pairs, const DiscState& discs) override {
+    contact_rows_.build(near_pairs, discs, contact_);
+    for (std::size_t c = 0; c < tasks_.size(); ++c)
+      contact_rows_.aim(tasks_[c].contact_sweep, static_cast<std::int32_t>(c));
+  }
+
+  void collect(NearPairs& near_pairs) const override { contact_rows_.collect(near_pairs); }
 
   StepSums forces(ForceStep& step) override {
     const bool weak = bond_.damage_in_compression == DamageInCompression::full;
@@ -198,7 +153,9 @@ class OpenmpBackend final : public ForceBackend {
       // Each bond was seen from both ends, with the force on i: minus half of it is its share of sum F_j r.
       const Virial& v = task.sweep.virial;
       task.sums.virial = {-0.5 * v.xx, -0.5 * v.xy, -0.5 * v.yx, -0.5 * v.yy};
-      chunk_contacts(task);
+      scale(task.contact_sweep, step);
+      kernels_.contacts(task.contact_sweep);
+      add_contacts(task);
     }
     StepSums sums;
     for (const ChunkTask& task : tasks_) {
@@ -208,7 +165,9 @@ class OpenmpBackend final : public ForceBackend {
     return sums;
   }
 
-  std::string simd() const override { return kernels_.name; }
+  std::string simd() const override {
+    return kernels_.name;
+  }
 
  private:
   /// One step of the record's x, m.
@@ -232,12 +191,45 @@ class OpenmpBackend final : public ForceBackend {
     sweep.shear_share = static_cast<float>(bond_.inverse_critical_shear * rows_.threshold_unit() * unit);
   }
 
+  void scale(ContactSweep& sweep, const ForceStep& step) const {
+    const double unit = std::ldexp(1.0, -32 - step.discs.position_shift);
+    sweep.record = step.discs.record.data();
+    sweep.motion = step.discs.motion.data();
+    sweep.fx = step.discs.fx.data();
+    sweep.fy = step.discs.fy.data();
+    sweep.torque = step.discs.torque.data();
+    sweep.step_xx = static_cast<float>(step.cell.xx * unit);
+    sweep.step_xy = static_cast<float>(step.cell.xy * unit);
+    sweep.step_yy = static_cast<float>(step.cell.yy * unit);
+    sweep.gradient_xx = static_cast<float>(step.gradient.xx);
+    sweep.gradient_xy = static_cast<float>(step.gradient.xy);
+    sweep.gradient_yy = static_cast<float>(step.gradient.yy);
+    sweep.normal_stiffness = static_cast<float>(contact_.normal_stiffness);
+    sweep.tangential_stiffness = static_cast<float>(contact_.tangential_stiffness);
+    sweep.friction_coefficient = static_cast<float>(contact_.friction_coefficient);
+    sweep.dt = static_cast<float>(step.dt);
+  }
+
+  /// Each contact was seen from both ends.
+  static void add_contacts(ChunkTask& task) {
+    const ContactSweep& c = task.contact_sweep;
+    Virial& v = task.sums.virial;
+    v.xx += 0.5 * c.virial.xx;
+    v.xy += 0.5 * c.virial.xy;
+    v.yx += 0.5 * c.virial.yx;
+    v.yy += 0.5 * c.virial.yy;
+    task.sums.friction += 0.5 * c.friction;
+    task.sums.viscous += 0.5 * c.viscous;
+    task.sums.largest_overlap = c.largest_overlap;
+  }
+
   BondLaw bond_;
   ContactLaw contact_;
   int threads_;
   double start_unit_ = 1.0;
-  const BondKernels& kernels_;
+  const VectorKernels& kernels_;
   BondRows rows_;
+  ContactRows contact_rows_;
   std::vector<std::int32_t> broken_;
   std::vector<ChunkTask> tasks_;
 };
@@ -264,7 +256,7 @@ std::vector<SimdChoice> usable_simd() {
 
 std::unique_ptr<ForceBackend> make_openmp_backend(const BondLaw& bond, const ContactLaw& contact, int threads,
                                                   SimdChoice simd) {
-  const BondKernels* const kernels = kernels_of(simd == SimdChoice::automatic ? usable_simd().front() : simd);
+  const VectorKernels* const kernels = kernels_of(simd == SimdChoice::automatic ? usable_simd().front() : simd);
   return std::make_unique<OpenmpBackend>(bond, contact, std::max(1, threads), *kernels);
 }
 

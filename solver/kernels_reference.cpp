@@ -27,6 +27,8 @@ class ReferenceBackend final : public ForceBackend {
   ReferenceBackend(const BondLaw& bond, const ContactLaw& contact) : bond_(bond), contact_(contact) {}
 
   void load(const BondNetwork&, const DiscState&, const CellMatrix&) override {}
+  void list(const NearPairs&, const DiscState&) override {}
+  void collect(NearPairs&) const override {}
 
   StepSums forces(ForceStep& step) override {
     std::fill(step.discs.fx.begin(), step.discs.fx.end(), 0.0);
@@ -72,9 +74,8 @@ class ReferenceBackend final : public ForceBackend {
     const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     const double damage = updated_damage(bond_, k.delta_n, k.delta_t, net.strength[at(id)], net.damage[at(id)]);
     if (damage > net.damage[at(id)]) {
-      const BondKinematics old =
-          kinematics_before(discs, i, j, step.cell_before, net.direction_x[at(id)], net.direction_y[at(id)],
-                            net.rest_length[at(id)]);
+      const BondKinematics old = kinematics_before(discs, i, j, step.cell_before, net.direction_x[at(id)],
+                                                   net.direction_y[at(id)], net.rest_length[at(id)]);
       const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
       sums.damage += damageable_energy(bond_, before, now) * (damage - net.damage[at(id)]);
       net.damage[at(id)] = damage;

@@ -210,13 +210,18 @@ struct ContactForce {
   double viscous = 0.0;   ///< dissipated by the viscous force in this step, J/m
 };
 
+/// c = 2 beta sqrt(k_n m_eff) of a contact, N s/m2.
+inline double contact_damping(const ContactLaw& law, double effective_mass) {
+  return 2.0 * law.viscous_rate * std::sqrt(law.normal_stiffness * effective_mass);
+}
+
 /// Contact force at `overlap` > 0 (m) with relative velocities v_n (separating positive) and v_t (m/s) held over the
 /// step dt: f_n = max(0, k_n overlap - c v_n), Coulomb limit mu f_n on the tangential spring. Dissipation is the mean
 /// of the forces at both ends of the step times the displacement in it, which is what the integrator's kicks take out.
 inline ContactForce contact_force(const ContactLaw& law, double overlap, double v_n, double v_t, double effective_mass,
                                   double dt, ContactHistory& history) {
   const double elastic = law.normal_stiffness * overlap;
-  const double damping = 2.0 * law.viscous_rate * std::sqrt(law.normal_stiffness * effective_mass);
+  const double damping = contact_damping(law, effective_mass);
   ContactForce force;
   force.normal = std::max(0.0, elastic - damping * v_n);
   const double viscous_force = force.normal - elastic;

@@ -103,13 +103,14 @@ NearSlot* NearPairs::find(std::int32_t i, std::int32_t j) {
   return nullptr;
 }
 
-void NearPairs::release(std::int32_t i, std::int32_t j, double touch) {
+std::int32_t NearPairs::release(std::int32_t i, std::int32_t j, double touch) {
   NearSlot* slot = find(i, j);
-  if (slot == nullptr || slot->bonded == 0) return;
+  if (slot == nullptr || slot->bonded == 0) return -1;
   slot->bonded = 0;
   slot->touch = touch;
   slot->history = {};
   ++active_[at(i)];
+  return static_cast<std::int32_t>(slot - slots_.data());
 }
 
 NearPairs::Snapshot NearPairs::snapshot() const {

@@ -34,8 +34,8 @@ class NearPairs {
   /// Farthest fluctuating displacement of a disc since the last rebuild, m.
   double largest_displacement(const DiscState& discs, const CellMatrix& cell) const;
   /// A bond i-j just broke: the end in row i becomes a contact candidate. Called once from each end. Does nothing for a
-  /// pair that is not near.
-  void release(std::int32_t i, std::int32_t j, double touch);
+  /// pair that is not near. Returns the index of the slot, -1 for none.
+  std::int32_t release(std::int32_t i, std::int32_t j, double touch);
 
   std::int32_t row_begin(std::int32_t i) const { return start_[static_cast<std::size_t>(i)]; }
   std::int32_t row_end(std::int32_t i) const { return start_[static_cast<std::size_t>(i) + 1]; }

@@ -37,6 +37,10 @@ PERFORA_INLINE Floats load(const float* from) {
   return v;
 }
 
+PERFORA_INLINE void store(float* to, Floats v) {
+  std::memcpy(to, &v, sizeof v);
+}
+
 /// v itself, which the compiler may not fuse with what comes after.
 PERFORA_INLINE Floats rounded(Floats v) {
 #if defined(__AVX512F__) || defined(__AVX2__)
@@ -102,8 +106,7 @@ PERFORA_INLINE std::uint32_t above(Floats a, float limit) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask(__m512(a), _mm512_set1_ps(limit), _CMP_GT_OQ);
 #elif defined(__AVX2__)
-  return static_cast<std::uint32_t>(
-      _mm256_movemask_ps(_mm256_cmp_ps(__m256(a), _mm256_set1_ps(limit), _CMP_GT_OQ)));
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(a), _mm256_set1_ps(limit), _CMP_GT_OQ)));
 #else
   std::uint32_t bits = 0;
   for (int k = 0; k < lanes; ++k) bits |= static_cast<std::uint32_t>(a[k] > limit) << k;

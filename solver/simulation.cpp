@@ -45,6 +45,7 @@ void DiscState::resize(std::size_t n) {
   for (auto* field : {&sx, &sy, &turn, &sx_before, &sy_before, &turn_before}) field->assign(n, 0);
   for (auto* field : {&vx, &vy, &omega, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
   record.resize(n);
+  motion.resize(n);
 }
 
 void DiscState::set_angle(std::size_t disc, double angle) {
@@ -110,6 +111,7 @@ Simulation::Simulation(SimulationInput input)
                  ? make_reference_backend(bond_law_, contact_law_)
                  : make_openmp_backend(bond_law_, contact_law_, threads_, options_.dynamics.simd);
   backend_->load(network_, discs_, cell_.start);
+  backend_->list(near_pairs_, discs_);
   broken_.reserve(static_cast<std::size_t>(network_.size()));
   events_.reserve(static_cast<std::size_t>(network_.size()));
   chunk_sums_.resize((n + chunk_discs - 1) / chunk_discs);
@@ -152,7 +154,9 @@ void Simulation::keep_near_pairs() {
   // No disc has gone farther than `travelled`; most have gone less.
   progress_.travelled = near_pairs_.largest_displacement(discs_, now_);
   if (!near_pairs_.outdated(progress_.travelled / renewal_share, now_)) return;
+  backend_->collect(near_pairs_);
   near_pairs_.rebuild(discs_, now_, network_);
+  backend_->list(near_pairs_, discs_);
   progress_.travelled = 0.0;
 }
 
@@ -204,9 +208,8 @@ void Simulation::account(const StepSums& sums, const CellMatrix& before) {
 void Simulation::record_breaks() {
   for (const std::int32_t id : broken_) {
     const std::int32_t i = network_.i[at(id)], j = network_.j[at(id)];
-    const BondKinematics k =
-        kinematics_of(discs_, i, j, now_, network_.direction_x[at(id)], network_.direction_y[at(id)],
-                      network_.rest_length[at(id)]);
+    const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[at(id)],
+                                           network_.direction_y[at(id)], network_.rest_length[at(id)]);
     const auto [x, y] = position(i);
     BreakEvent event;
     event.time = time();
@@ -260,6 +263,7 @@ void Simulation::reset_row() {
 }
 
 Ledger Simulation::ledger() const {
+  backend_->collect(near_pairs_);
   Ledger ledger = progress_.ledger;
   ledger.elastic_contacts += walls_.elastic_energy(discs_, now_);
   const double half = 0.5 * time_step_, c = options_.dynamics.cundall_damping;
@@ -279,8 +283,8 @@ Ledger Simulation::ledger() const {
     const auto id = static_cast<std::size_t>(b);
     if (network_.state[id] != BondState::intact) continue;
     const std::int32_t i = network_.i[id], j = network_.j[id];
-    const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[id], network_.direction_y[id],
-                                           network_.rest_length[id]);
+    const BondKinematics k =
+        kinematics_of(discs_, i, j, now_, network_.direction_x[id], network_.direction_y[id], network_.rest_length[id]);
     const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[id]);
     ledger.elastic_bonds +=
         bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
@@ -298,6 +302,7 @@ Ledger Simulation::ledger() const {
 }
 
 std::int64_t Simulation::contacts() const {
+  backend_->collect(near_pairs_);
   std::int64_t count = 0;
   for (std::int32_t i = 0; i < discs_.size(); ++i) {
     if (near_pairs_.active(i) == 0) continue;
@@ -316,6 +321,7 @@ std::pair<double, double> Simulation::position(std::int32_t disc) const {
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
+  backend_->collect(near_pairs_);
   Snapshot s;
   s.progress = progress_;
   s.discs = discs_;
@@ -335,6 +341,7 @@ void Simulation::restore(Snapshot s) {
   discs_ = std::move(s.discs);
   discs_.position_shift = shift;
   discs_.record.resize(discs_.sx.size());
+  discs_.motion.resize(discs_.sx.size());
   network_.damage = std::move(s.damage);
   for (std::size_t b = 0; b < s.bond_state.size(); ++b) network_.state[b] = static_cast<BondState>(s.bond_state[b]);
   near_pairs_.restore(s.near_pairs);
@@ -343,6 +350,7 @@ void Simulation::restore(Snapshot s) {
   events_.assign(s.events.begin(), s.events.end());
   refresh_records();
   backend_->load(network_, discs_, cell_.start);
+  backend_->list(near_pairs_, discs_);
 }
 
 }  // namespace perfora::solver

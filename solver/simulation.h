@@ -78,7 +78,10 @@ class Simulation {
   const BondNetwork& network() const { return network_; }
   const DiscState& discs() const { return discs_; }
   DiscState& discs() { return discs_; }  ///< for tests that set velocities and angles before the first step
-  const NearPairs& near_pairs() const { return near_pairs_; }
+  const NearPairs& near_pairs() const {
+    backend_->collect(near_pairs_);
+    return near_pairs_;
+  }
   const std::vector<BreakEvent>& events() const { return events_; }
   std::int64_t intact_bonds() const { return static_cast<std::int64_t>(progress_.intact); }
   std::string simd() const { return backend_->simd(); }
@@ -134,7 +137,7 @@ class Simulation {
   DiscState discs_;
   std::vector<double> inverse_mass_, inverse_inertia_;
   BondNetwork network_;
-  NearPairs near_pairs_;
+  mutable NearPairs near_pairs_;  // contact histories come from the backend when somebody asks
   Walls walls_;
   std::unique_ptr<ForceBackend> backend_;
   std::vector<std::int32_t> broken_;

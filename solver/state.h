@@ -17,18 +17,25 @@ struct alignas(16) DiscRecord {
   float c, s;
 };
 
+/// What a contact needs of a disc besides: fluctuating velocity (m/s), spin (rad/s), radius (m).
+struct alignas(16) DiscMotion {
+  float vx, vy, omega, radius;
+};
+
 /// All discs. Reduced positions are 64-bit fixed point of the cell: differences wrap by themselves (minimum image) and
 /// sums do not round. Half angles are fixed point of the full turn in the same way. Velocities are fluctuations v' =
 /// dx/dt - L x, held at half steps (leapfrog form of velocity Verlet).
 struct DiscState {
-  std::vector<std::uint64_t> sx, sy;                           ///< reduced position at the end of the last drift
-  std::vector<std::uint64_t> turn;                             ///< half the angle, over the full turn
+  std::vector<std::uint64_t> sx, sy;                             ///< reduced position at the end of the last drift
+  std::vector<std::uint64_t> turn;                               ///< half the angle, over the full turn
   std::vector<std::uint64_t> sx_before, sy_before, turn_before;  ///< the same at its start
-  std::vector<double> vx, vy, omega;                           ///< m/s, rad/s
+  std::vector<double> vx, vy, omega;                             ///< m/s, rad/s
   std::vector<double> fx, fy, torque;  ///< of bonds and contacts, N/m and N; Cundall damping is added by the kick
   std::vector<double> radius, mass, inertia;
   std::vector<DiscRecord> record;
-  int position_shift = 0;  ///< k: a record's positions are those in the cell's 2^-k part, which makes them 2^k times finer
+  std::vector<DiscMotion> motion;  ///< after the last kick
+  int position_shift =
+      0;  ///< k: a record's positions are those in the cell's 2^-k part, which makes them 2^k times finer
 
   std::int32_t size() const { return static_cast<std::int32_t>(sx.size()); }
   void resize(std::size_t n);
@@ -37,7 +44,7 @@ struct DiscState {
     return 4.0 * std::numbers::pi * 0x1p-64 * static_cast<double>(static_cast<std::int64_t>(turn[disc]));
   }
   void set_angle(std::size_t disc, double angle);
-  /// Makes a disc's record from its position and angle.
+  /// Makes a disc's record from its position and angle, and its motion.
   void refresh_record(std::size_t disc);
 };
 
@@ -59,15 +66,15 @@ struct CosineSine {
 /// bits do not depend on a maths library. Absolute error below 3e-16.
 inline CosineSine cosine_sine(std::uint64_t turn) {
   const std::uint64_t quadrant = (turn + (std::uint64_t{1} << 61)) >> 62;
-  const double a = static_cast<double>(static_cast<std::int64_t>(turn - (quadrant << 62))) *
-                   (2.0 * std::numbers::pi * 0x1p-64);
+  const double a =
+      static_cast<double>(static_cast<std::int64_t>(turn - (quadrant << 62))) * (2.0 * std::numbers::pi * 0x1p-64);
   const double b = a * a;
   double s = -1.0 / 1307674368000.0, c = 1.0 / 20922789888000.0;  // 1/15!, 1/16!
-  for (const double inverse : {1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0,
-                               -1.0 / 6.0, 1.0})
+  for (const double inverse :
+       {1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0})
     s = s * b + inverse;
-  for (const double inverse : {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0,
-                               1.0 / 24.0, -0.5, 1.0})
+  for (const double inverse :
+       {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0})
     c = c * b + inverse;
   s *= a;
   switch (quadrant & 3) {

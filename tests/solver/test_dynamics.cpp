@@ -60,7 +60,8 @@ Simulation thrown_cluster(const geometry::Packing& packing, KernelChoice kernel,
 
 // Cundall off: linear momentum to rounding over breaks and contacts; angular momentum too: every pair torque is
 // balanced at the same positions, and the leapfrog's r(n) x F(n) dt is exactly the change of r x p between half steps.
-// Rounding: 2,000 steps of sums over 100 discs, 1e-16 x sqrt(2e5) ~ 1e-13.
+// Rounding: 2,000 steps of sums over 100 discs, 1e-16 x sqrt(2e5) ~ 1e-13; in the vector kernels, whose sums of a disc
+// are in single precision, 1e-7 x 25 forces each step: below 1e-6.
 TEST(Conservation, MomentaWithContactsAndBreaks) {
   for (const KernelChoice kernel : {KernelChoice::reference, KernelChoice::openmp})
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -76,9 +77,10 @@ TEST(Conservation, MomentaWithContactsAndBreaks) {
       const Momentum after = momentum(s);
       EXPECT_GT(s.events().size(), 20u);
       EXPECT_GE(contacts, 3);
-      EXPECT_NEAR(after.px, before.px, 1e-12 * before.scale_p);
-      EXPECT_NEAR(after.py, before.py, 1e-12 * before.scale_p);
-      EXPECT_NEAR(after.angular, before.angular, 1e-11 * before.scale_l) << "seed " << seed;
+      const double single = kernel == KernelChoice::openmp ? 1e-6 : 0.0;
+      EXPECT_NEAR(after.px, before.px, (1e-12 + single) * before.scale_p);
+      EXPECT_NEAR(after.py, before.py, (1e-12 + single) * before.scale_p);
+      EXPECT_NEAR(after.angular, before.angular, (1e-11 + single) * before.scale_l) << "seed " << seed;
     }
 }
 
@@ -259,8 +261,8 @@ TEST(Backends, SameElasticRunAndFirstBreak) {
   while (a.events().empty() && b.events().empty() && a.steps() < 20000) {
     a.step();
     b.step();
-    const bool damaged = b.ledger().damage > 0.0;
-    ASSERT_NEAR(a.stress().yy, b.stress().yy, (damaged ? 1e-4 : 1e-7) * std::fabs(b.stress().yy) + 1e-6) << a.steps();
+    // Edges of the cell in single precision: 3e-8 of strain, some Pa at moduli of 150 MPa, and as much from the bonds.
+    ASSERT_NEAR(a.stress().yy, b.stress().yy, 1e-4 * std::fabs(b.stress().yy) + 10.0) << a.steps();
   }
   ASSERT_FALSE(a.events().empty());
   ASSERT_FALSE(b.events().empty());
@@ -274,6 +276,7 @@ TEST(Stress, AffineModulusMatchesTheBondSum) {
   const geometry::Packing packing = test::jittered_packing(12, 0.5e-3, 8);
   SolverOptions options;
   options.dynamics.cundall_damping = 0.0;
+  options.dynamics.kernel = KernelChoice::reference;  // a strain of 1e-9
   Simulation s = test::make_simulation(packing, options, 0.5e-3, 1e-3);
   const BondNetwork& net = s.network();
   double modulus = 0.0;

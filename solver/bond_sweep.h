@@ -2,13 +2,13 @@
 // instruction set. What is not: decisions on damage, which are taken in double precision off this path (laws.h).
 //
 // Lengths are in units of one step of the record's x: the branch then needs no scaling in x. Stretches are a thousandth
-// of a length and must not lose to rounding: |r|^2 comes straight from the fixed-point differences d by the metric H^T H;
-// with g a guess of 1/|r|, |r| = g r^2 + g/2 (r^2 - (g r^2)^2) to second order, and l0 is taken off the first term, what
-// a float cannot hold of l0 off the second. Seen from its other end a bond gives exactly the opposite force.
+// of a length and must not lose to rounding: |r|^2 comes straight from the fixed-point differences d by the metric H^T
+// H; with g a guess of 1/|r|, |r| = g r^2 + g/2 (r^2 - (g r^2)^2) to second order, and l0 is taken off the first term,
+// what a float cannot hold of l0 off the second. Seen from its other end a bond gives exactly the opposite force.
 #pragma once
 
-#include "solver/bond_kernel.h"
 #include "solver/simd.h"
+#include "solver/vector_kernels.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 

@@ -1,9 +1,0 @@
-// What is here: the bond loops for any machine (compile options in CMakeLists.txt). What is not: the loop itself
-// (bond_kernel_body.h).
-#include "solver/bond_kernel_body.h"
-
-namespace perfora::solver {
-
-const BondKernels bond_kernels_portable = {lanes, "portable", quartic, general, quartic_weak, general_weak};
-
-}  // namespace perfora::solver
