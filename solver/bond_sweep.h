@@ -40,6 +40,10 @@ PERFORA_INLINE void sweep(BondSweep& task) {
               stretch = task.rest_stretch, fraction = task.rest_fraction_unit, twice_g_xy = task.twice_g_xy,
               g_yy = task.g_yy, g_yy_rest = task.g_yy_rest;
   const float normal_share = task.normal_share, shear_share = task.shear_share;
+  const float half_unit = static_cast<float>(0.5 * task.unit);
+  const std::uint16_t* const thresholds = task.threshold;
+  const std::int8_t* const rest_fractions = task.rest_fraction;
+  const std::uint8_t* const damaged = task.damaged;
   // Keeps 1/|r| of an empty lane, whose neighbour is its own disc, finite; far below the rounding of a real |r|^2.
   const Floats tiny = splat(1e-3f);
   const Floats zero = splat(0.0f);
@@ -57,7 +61,7 @@ PERFORA_INLINE void sweep(BondSweep& task) {
       const char* const ahead = reinterpret_cast<const char*>(&group + prefetched_groups);
       for (unsigned line = 0; line < sizeof(Group); line += 64) __builtin_prefetch(ahead + line);
       const std::int64_t slot = static_cast<std::int64_t>(g) * lanes;
-      __builtin_prefetch(task.threshold + slot + prefetched_groups * lanes);
+      __builtin_prefetch(thresholds + slot + prefetched_groups * lanes);
       const Fields other = load_records(base, group.neighbour);
       const Floats dx = __builtin_convertvector(Ints(Unsigned(other.x) - Unsigned(own.x)), Floats),
                    dy = __builtin_convertvector(Ints(Unsigned(other.y) - Unsigned(own.y)), Floats);
@@ -70,11 +74,11 @@ PERFORA_INLINE void sweep(BondSweep& task) {
       const Floats guess = inverse_root(square);
       const Floats length = rounded(guess * square);  // the correction is that of the rounded one
       const Floats correction = 0.5f * guess * (square - length * length);
-      const Floats delta_n = (length - l0) + (correction - fraction * load(task.rest_fraction + slot));
+      const Floats delta_n = (length - l0) + (correction - fraction * load(rest_fractions + slot));
       const Floats inverse = guess + guess * (guess * correction);
       const Floats delta_t = ex * ry - ey * rx, along = ex * rx + ey * ry;
 
-      const Floats threshold = load(task.threshold + slot);
+      const Floats threshold = load(thresholds + slot);
       const Floats share_t = delta_t * (threshold * shear_share);
       Floats power;
       if constexpr (quartic) {
@@ -86,20 +90,26 @@ PERFORA_INLINE void sweep(BondSweep& task) {
       const Floats reached = delta_n * (threshold * normal_share) + power;
       Floats per_length = k_n * delta_n * inverse, shear = k_t * delta_t;
       std::uint32_t off_path = above(reached, yield_watch);
-      if (task.damaged[g]) {
+      if (damaged[g] != 0) {
         const Floats damage = load(task.damage + slot), left = 1.0f - damage;
         per_length *= weak ? left : (delta_n > 0.0f ? left : splat(1.0f));
         shear *= left;
         if constexpr (weak) off_path |= above(damage, 0.0f);
       }
       if (__builtin_expect(off_path != 0, 0)) {
+        float normals[lanes], shears[lanes], inverses[lanes];  // not the vectors themselves: those stay in registers
+        store(normals, per_length);
+        store(shears, shear);
+        store(inverses, inverse);
         for (; off_path != 0; off_path &= off_path - 1) {
           const int lane = __builtin_ctz(off_path);
           if (disc[lane] < 0 || group.neighbour[lane] == own_offset[lane]) continue;
           const BondEndForce f = task.bond_end(task.context, disc[lane], slot + lane);
-          per_length[lane] = static_cast<float>(f.normal) * inverse[lane];
-          shear[lane] = static_cast<float>(f.shear);
+          normals[lane] = static_cast<float>(f.normal) * inverses[lane];
+          shears[lane] = static_cast<float>(f.shear);
         }
+        per_length = load(normals);
+        shear = load(shears);
       }
       const Floats gx = per_length * rx - shear * ey, gy = per_length * ry + shear * ex;  // f_n n + f_t t: on i
       force_x += gx;
@@ -113,11 +123,15 @@ PERFORA_INLINE void sweep(BondSweep& task) {
     virial_xy += v_xy;
     virial_yy += v_yy;
     twice_torques += twice_torque;
+    float fx[lanes], fy[lanes], torque[lanes];
+    store(fx, force_x);
+    store(fy, force_y);
+    store(torque, twice_torque * half_unit);
     for (int k = 0; k < lanes; ++k) {
       if (disc[k] < 0) break;
-      task.fx[disc[k]] = static_cast<double>(force_x[k]);
-      task.fy[disc[k]] = static_cast<double>(force_y[k]);
-      task.torque[disc[k]] = 0.5 * task.unit * static_cast<double>(twice_torque[k]);
+      task.fx[disc[k]] = static_cast<double>(fx[k]);
+      task.fy[disc[k]] = static_cast<double>(fy[k]);
+      task.torque[disc[k]] = static_cast<double>(torque[k]);
     }
   }
   // What tells yx from xy is the moment of the pairs, r x F = f_t (e . r).

@@ -88,11 +88,15 @@ void sweep_contacts(ContactSweep& task) {
       virial_yy += py * ry;
       deepest = larger(overlap, deepest);
     }
+    float fx[lanes], fy[lanes], moment[lanes];  // not the vectors themselves: those stay in registers
+    store(fx, force_x);
+    store(fy, force_y);
+    store(moment, torque);
     for (int k = 0; k < lanes; ++k) {
       if (disc[k] < 0) break;
-      task.fx[disc[k]] += static_cast<double>(force_x[k]);
-      task.fy[disc[k]] += static_cast<double>(force_y[k]);
-      task.torque[disc[k]] += static_cast<double>(torque[k]);
+      task.fx[disc[k]] += static_cast<double>(fx[k]);
+      task.fy[disc[k]] += static_cast<double>(fy[k]);
+      task.torque[disc[k]] += static_cast<double>(moment[k]);
     }
   }
   task.virial = {static_cast<double>(sum(virial_xx)), static_cast<double>(sum(virial_xy)),

@@ -5,11 +5,24 @@
 #include <cmath>
 
 #include "io/error.h"
+#include "solver/kernels.h"
 
 namespace perfora::solver {
 
+namespace {
+
+void refuse_missing_simd(SimdChoice simd) {
+  const std::vector<SimdChoice> usable = usable_simd();
+  if (simd != SimdChoice::automatic && std::find(usable.begin(), usable.end(), simd) == usable.end())
+    throw io::InputError({"", 0, "dynamics.simd"}, "this machine has not got these instructions", "",
+                         "use \"auto\", or \"portable\" for bits that every machine of one kind gives");
+}
+
+}  // namespace
+
 RunSetup set_up_run(const RunRequest& request) {
   const SolverOptions& options = request.options;
+  refuse_missing_simd(options.dynamics.simd);
   RunSetup s;
   s.specimen =
       make_specimen(*request.clipped, *request.layout, options.boundary, options.material, request.mean_diameter);

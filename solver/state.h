@@ -103,6 +103,6 @@ struct StepSums {
 };
 
 /// Discs a chunk: the unit of fixed-order reductions. A constant, so that sums do not depend on the number of threads.
-inline constexpr std::int32_t chunk_discs = 64;
+inline constexpr std::int32_t chunk_discs = 128;
 
 }  // namespace perfora::solver

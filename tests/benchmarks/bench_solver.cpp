@@ -97,6 +97,9 @@ void bonds(benchmark::State& run, SimdChoice simd, int threads) {
   for (auto _ : run) benchmark::DoNotOptimize(s.forces(*backend));
   const auto count = static_cast<double>(s.network.size());
   per_item(run, count, 2.0 * count * bytes_per_bond_end);
+  BondRows rows(simd == SimdChoice::avx512 ? 16 : 8);
+  rows.build(s.network, s.discs.size(), s.bond, 1.0);
+  run.counters["places_per_end"] = rows.padding();
 }
 
 void bonds_reference(benchmark::State& run) {

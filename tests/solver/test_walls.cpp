@@ -83,8 +83,8 @@ TEST(Platens, FacesBeginWithoutForce) {
   const geometry::Packing packing = test::jittered_packing(14, pitch, 1);
   Simulation s = test::make_bounded(packing, test::with_edges(TopBottom::platens, Sides::walls), pitch, 0.0);
   for (int k = 0; k < 50; ++k) s.step();
-  // Rounding of l0 against |r|, 1e-19 m times k_n.
-  for (std::size_t w = 0; w < 4; ++w) EXPECT_NEAR(std::hypot(s.walls().force(w)[0], s.walls().force(w)[1]), 0.0, 1e-6);
+  // Rounding of l0 against |r| in bonds near the face: 1e-10 m times k_n each, some ten of them at random.
+  for (std::size_t w = 0; w < 4; ++w) EXPECT_NEAR(std::hypot(s.walls().force(w)[0], s.walls().force(w)[1]), 0.0, 2e-2);
 }
 
 // Platens and walls push, they do not pull: pulled apart, the block comes loose. Its own stress then dies away.
@@ -107,7 +107,7 @@ TEST(Platens, DoNotPull) {
 }
 
 // Without Cundall damping the discs' momentum changes by the walls' forces and nothing else, through breaks, friction
-// and rubble. Rounding of 1500 sums over 144 discs.
+// and rubble. Rounding of 1500 sums over 144 discs; in the vector kernels each of them in single precision.
 TEST(Walls, ForcesAreTheChangeOfMomentum) {
   for (const KernelChoice kernel : {KernelChoice::reference, KernelChoice::openmp}) {
     const geometry::Packing packing = test::jittered_packing(12, pitch, 3);
@@ -131,9 +131,9 @@ TEST(Walls, ForcesAreTheChangeOfMomentum) {
       s.step();
     }
     EXPECT_GT(s.events().size(), 50u);
-    const double scale = momentum(true)[1];
-    EXPECT_NEAR(momentum(false)[0], impulse[0], 1e-11 * scale);
-    EXPECT_NEAR(momentum(false)[1], impulse[1], 1e-11 * scale);
+    const double scale = (kernel == KernelChoice::openmp ? 1e-6 : 1e-11) * momentum(true)[1];
+    EXPECT_NEAR(momentum(false)[0], impulse[0], scale);
+    EXPECT_NEAR(momentum(false)[1], impulse[1], scale);
   }
 }
 
