@@ -12,7 +12,7 @@ packages=(
   libcgal-dev libeigen3-dev libnlopt-cxx-dev    # geometry, linear algebra, search
   libhdf5-dev zlib1g-dev libtomlplusplus-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
-  libgtest-dev libgmock-dev                     # tests
+  libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks
 )
 viewer_packages=(python3-paraview python3-h5py)
 

@@ -54,6 +54,15 @@ class CellGrid {
       }
   }
 
+  /// The number of the cell that (x, y) lies in.
+  std::size_t cell_at(double x, double y) const { return cell(column_of(x), row_of(y)); }
+  double middle_x(std::size_t cell) const {
+    return (static_cast<double>(cell % static_cast<std::size_t>(columns_)) + 0.5) * column_width_;
+  }
+  double middle_y(std::size_t cell) const {
+    return (static_cast<double>(cell / static_cast<std::size_t>(columns_)) + 0.5) * row_height_;
+  }
+
  private:
   static int cells_along(double period, double reach) {
     // Finer grids than this cost memory and gain nothing.

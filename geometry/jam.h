@@ -19,7 +19,9 @@ struct JamResult {
 /// Largest overlap over the smaller diameter of its pair that a finished packing may have.
 inline constexpr double overlap_limit = 1e-3;
 
-/// Leaves `minimiser` at the jammed positions. `progress` (share done in [0, 1]) may be empty.
-JamResult jam(OverlapMinimiser& minimiser, const std::function<void(double)>& progress);
+/// Leaves `minimiser` at the jammed positions. Where the radii will be `shrunk` * radius in the end (0: they stay) and
+/// that opens gaps, it stops as soon as what still overlaps is small beside the gaps; the scale is extrapolated then.
+/// `progress` (share done in [0, 1]) may be empty.
+JamResult jam(OverlapMinimiser& minimiser, double shrunk, const std::function<void(double)>& progress);
 
 }  // namespace perfora::geometry

@@ -155,7 +155,7 @@ double pilot_fraction(const SizeLaw& law, int threads) {
   const double mean = law.mean_power(1);
   const double side = std::sqrt(pilot_discs * 0.25 * std::numbers::pi * law.mean_power(2) / (mean * mean) / assumed);
   OverlapMinimiser minimiser(random_start(law, pilot_discs, assumed, side, side, pilot_seed), threads);
-  const JamResult jammed = jam(minimiser, {});
+  const JamResult jammed = jam(minimiser, 0.0, {});
   return assumed * jammed.scale * jammed.scale;
 }
 
@@ -197,7 +197,8 @@ void judge(Packing& packing, double wanted, double jamming_fraction, std::int64_
 Packing jam_and_dilate(SoftDiscs start, double wanted, double fraction, double unit, double width, double height,
                        int threads, const Progress& progress) {
   OverlapMinimiser minimiser(std::move(start), threads);
-  const JamResult jammed = jam(minimiser, [&](double done) {
+  // Wanted radii are those of scale 1.
+  const JamResult jammed = jam(minimiser, wanted > 0.0 ? 1.0 : 0.0, [&](double done) {
     if (progress) progress(done, "jamming " + std::to_string(minimiser.discs().x.size()) + " discs");
   });
   const double jamming_fraction = fraction * jammed.scale * jammed.scale;

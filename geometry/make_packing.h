@@ -28,7 +28,7 @@ struct PackingOptions {
 void describe(io::Schema& schema, PackingOptions& options);
 
 /// Raised with every change of the bits make_packing gives.
-inline constexpr int packing_algorithm_version = 1;
+inline constexpr int packing_algorithm_version = 2;
 
 PackingKey packing_key(const PackingOptions& options, double width, double height, std::uint64_t seed);
 

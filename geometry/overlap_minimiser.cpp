@@ -1,239 +1,192 @@
-// What is here: Verlet lists, overlap forces and the FIRE loop.
+// What is here: the descent and when its lists are renewed.
 // What is not: decisions about scales and pressures (jam.cpp).
 #include "geometry/overlap_minimiser.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/cell_grid.h"
-
 namespace perfora::geometry {
 
 namespace {
-
-/// Fewer discs than this a thread cost more in waiting than they save, above all on a busy machine.
+/// Fewer discs than this a thread cost more in waiting than they save.
 constexpr std::size_t discs_per_thread = 8192;
-/// Discs a reduction sums in one go: fixed, so that sums do not depend on the number of threads.
-constexpr std::size_t chunk_size = 1024;
 
-// FIRE as in Guenole et al. 2020, table 2, for masses and stiffnesses of order one (highest frequency about 4, so that
-// a step of 0.42 is stable).
-constexpr double first_step = 0.1;
-constexpr double longest_step = 0.42;
-constexpr double shortest_step = 0.02;
-constexpr double first_steer = 0.25;
-constexpr double steer_decay = 0.99;
-constexpr double step_growth = 1.1;
-constexpr double step_cut = 0.5;
-constexpr int steps_before_growth = 20;
-/// Verlet skin, in the unit of length (about one diameter): wide while discs travel, narrow when they hardly move.
-constexpr double wide_skin = 0.45;
+/// Displacement over force and mass. Stiffnesses are of order one; 0.16 suits discs of alike size. Where a few large
+/// discs touch very many small ones it is too much: going uphill soon after a start says so, and it is cut.
+constexpr double first_push = 0.16;
+constexpr double push_cut = 0.8;
+constexpr double least_push = 0.01;
+constexpr std::int64_t short_run = 50;
+/// The momentum grows as k/(k + 3) with the iterations k since the last start (Nesterov's own sequence) up to this:
+/// without a limit the soft modes of a nearly jammed packing swing back and forth between starts.
+constexpr double momentum_delay = 3.0;
+constexpr double largest_momentum = 0.985;
+
+/// Near pairs, in the unit of length (about one diameter): wide while discs travel, narrow when they hardly move.
+constexpr double wide_skin = 0.3;
 constexpr double narrow_skin = 0.12;
-/// A list that lasted fewer iterations than this asks for the wide skin.
-constexpr std::int64_t short_lived_list = 40;
+/// A selection that lasted fewer iterations than this asks for the wide skin.
+constexpr std::int64_t short_lived = 40;
+/// How much farther the candidates reach: wide enough that discs on their way from a random start to rest are searched
+/// a few times only.
+constexpr double candidate_margin = 1.6;
 constexpr std::int64_t iterations_between_checks = 10;
-/// Added to squared distances so that coincident centres do not divide by zero.
-constexpr double coincident = 1e-30;
+
+double momentum(std::int64_t age) {
+  return std::min(largest_momentum, static_cast<double>(age) / (static_cast<double>(age) + momentum_delay));
+}
+
+double inside(double value, double period) {
+  value -= period * std::floor(value / period);
+  return value < period ? value : 0.0;
+}
 
 }  // namespace
 
 OverlapMinimiser::OverlapMinimiser(SoftDiscs discs, int threads)
     : discs_(std::move(discs)),
-      chunks_((discs_.x.size() + chunk_size - 1) / chunk_size),
-      team_(std::clamp(threads, 1, static_cast<int>(1 + discs_.x.size() / discs_per_thread))),
+      threads_(std::clamp(threads, 1, static_cast<int>(1 + discs_.x.size() / discs_per_thread))),
+      chunks_(static_cast<std::int64_t>((discs_.x.size() + chunk_size - 1) / chunk_size)),
+      lists_(discs_.width, discs_.height, discs_.radius, threads_),
+      push_(first_push),
       places_(discs_.x.size()),
-      neighbours_(chunks_),
-      list_end_(discs_.x.size()) {
+      radius_(discs_.radius.begin(), discs_.radius.end()),
+      force_sums_(static_cast<std::size_t>(chunks_)),
+      overlap_sums_(force_sums_.size()),
+      farthest_(force_sums_.size()) {
   const std::size_t n = discs_.x.size();
-  for (auto* array : {&mass_, &inverse_mass_, &force_x_, &force_y_, &speed_x_, &speed_y_, &listed_x_, &listed_y_})
-    array->assign(n, 0.0);
+  constexpr std::size_t whole = static_cast<std::size_t>(lanes) / 2;  // discs in one vector
+  for (auto* array : {&moved_, &selected_, &speed_, &force_, &inverse_mass_})
+    array->resize((n + whole - 1) / whole * whole);
   double mean = 0.0;
   for (double r : discs_.radius) mean += r;
   mean /= static_cast<double>(std::max<std::size_t>(n, 1));
   for (std::size_t i = 0; i < n; ++i) {
-    mass_[i] = discs_.radius[i] / mean;
-    inverse_mass_[i] = 1.0 / mass_[i];
-    places_[i] = {discs_.x[i], discs_.y[i], discs_.radius[i], 0.0};
+    largest_radius_ = std::max(largest_radius_, discs_.radius[i]);
+    places_[i] = {discs_.x[i], discs_.y[i]};
+    const float inverse = static_cast<float>(mean / discs_.radius[i]);
+    inverse_mass_[i] = {inverse, inverse};
   }
 }
 
-void OverlapMinimiser::wrap_positions() {
-  const auto wrap = [](double value, double period) {
-    value -= period * std::floor(value / period);
-    return value < period ? value : 0.0;
-  };
-  for (Place& place : places_) {
-    place.x = wrap(place.x, discs_.width);
-    place.y = wrap(place.y, discs_.height);
+ChunkDiscs OverlapMinimiser::chunk(std::size_t k) {
+  const std::size_t begin = k * chunk_size;
+  ChunkDiscs discs;
+  discs.count = std::min(chunk_size, moved_.size() - begin);
+  discs.all_moved = moved_.data();
+  discs.moved = moved_.data() + begin;
+  discs.selected = selected_.data() + begin;
+  discs.inverse_mass = inverse_mass_.data() + begin;
+  discs.speed = speed_.data() + begin;
+  discs.force = force_.data() + begin;
+  return discs;
+}
+
+void OverlapMinimiser::take_over_moves() {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    places_[i].x += static_cast<double>(moved_[i].x);
+    places_[i].y += static_cast<double>(moved_[i].y);
+    moved_[i] = {};
   }
 }
 
-void OverlapMinimiser::build_lists(double skin) {
-  wrap_positions();
-  const std::size_t n = places_.size();
-  double largest = 0.0;
-  for (const Place& place : places_) largest = std::max(largest, place.radius);
-  const CellGrid grid(discs_.width, discs_.height, 2.0 * largest + skin, n,
-                      [this](std::size_t i) { return places_[i]; });
-  const double half_width = 0.5 * discs_.width, half_height = 0.5 * discs_.height;
-  team_.for_each(chunks_, [&](std::size_t chunk) {
-    std::vector<std::int32_t>& list = neighbours_[chunk];
-    list.clear();
-    for (std::size_t i = chunk * chunk_size; i < std::min(n, (chunk + 1) * chunk_size); ++i) {
-      const Place here = places_[i];
-      grid.for_each_near(here.x, here.y, [&](std::int32_t other) {
-        const Place& there = places_[static_cast<std::size_t>(other)];
-        const double ax = nearest_image(there.x - here.x, discs_.width, half_width);
-        const double ay = nearest_image(there.y - here.y, discs_.height, half_height);
-        const double reach = here.radius + there.radius + skin;
-        if (ax * ax + ay * ay < reach * reach && static_cast<std::size_t>(other) != i) list.push_back(other);
-      });
-      list_end_[i] = static_cast<std::int32_t>(list.size());
-      listed_x_[i] = places_[i].x;
-      listed_y_[i] = places_[i].y;
-    }
-  });
-}
-
-template <bool measured>
-OverlapMinimiser::Sums OverlapMinimiser::forces_of_chunk(std::size_t chunk) {
-  Sums sums;
-  const std::size_t first = chunk * chunk_size, last = std::min(places_.size(), first + chunk_size);
-  const double width = discs_.width, height = discs_.height, half_width = 0.5 * width, half_height = 0.5 * height;
-  const Place* places = places_.data();
-  const std::int32_t* list = neighbours_[chunk].data();
-  std::int32_t k = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    const Place here = places[i];
-    double fx = 0.0, fy = 0.0;
-    for (const std::int32_t end = list_end_[i]; k < end; ++k) {
-      const Place& there = places[list[k]];
-      const double ax = nearest_image(there.x - here.x, width, half_width);
-      const double ay = nearest_image(there.y - here.y, height, half_height);
-      const double squared = ax * ax + ay * ay + coincident;
-      const double distance = std::sqrt(squared);
-      // The positive part without a branch: about half of the listed pairs overlap, which no branch predictor guesses.
-      const double approach = here.radius + there.radius - distance;
-      const double overlap = 0.5 * (approach + std::abs(approach));
-      const double factor = overlap / distance;
-      fx -= factor * ax;
-      fy -= factor * ay;
-      if constexpr (measured) {
-        if (overlap <= 0.0) continue;
-        sums.overlap += overlap;
-        sums.virial += overlap * distance;
-        sums.distance_squared += squared;
-        ++sums.contacts;
-        sums.max_ratio = std::max(sums.max_ratio, 0.5 * overlap / std::min(here.radius, there.radius));
-      }
-    }
-    force_x_[i] = fx;
-    force_y_[i] = fy;
-    const double inverse_mass = inverse_mass_[i];
-    sums.force_squared += (fx * fx + fy * fy) * inverse_mass;
-    sums.speed_squared += (speed_x_[i] * speed_x_[i] + speed_y_[i] * speed_y_[i]) * mass_[i];
-    sums.power += fx * speed_x_[i] + fy * speed_y_[i];
+void OverlapMinimiser::renew_lists(double scale, double skin) {
+  float farthest = 0.0F;
+  for (const Float2& m : moved_) farthest = std::max(farthest, m.x * m.x + m.y * m.y);
+  const double growth = 2.0 * largest_radius_ * std::max(0.0, scale - searched_scale_);
+  const double travelled = 2.0 * std::sqrt(static_cast<double>(farthest));
+  if (!(skin + travelled + growth <= searched_margin_)) {
+    take_over_moves();
+    searched_scale_ = scale;
+    searched_margin_ = candidate_margin;
+    lists_.search(places_, scale, searched_margin_);
   }
-  return sums;
+  lists_.select(moved_, scale, skin);
+  selected_ = moved_;
 }
 
-OverlapMinimiser::Sums OverlapMinimiser::compute_forces(bool measured) {
-  std::vector<Sums> partial(chunks_);
-  team_.for_each(chunks_, [&](std::size_t chunk) {
-    partial[chunk] = measured ? forces_of_chunk<true>(chunk) : forces_of_chunk<false>(chunk);
-  });
-  Sums total;
-  for (const Sums& part : partial) {
-    total.force_squared += part.force_squared;
-    total.speed_squared += part.speed_squared;
+ForceSums OverlapMinimiser::sum_forces(double scale) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::int64_t c = 0; c < chunks_; ++c) {
+    const std::size_t k = static_cast<std::size_t>(c);
+    force_sums_[k] = compute_forces(lists_.of_chunk(k), chunk(k), scale);
+  }
+  ForceSums total;
+  for (const ForceSums& part : force_sums_) {
+    total.squared += part.squared;
     total.power += part.power;
-    total.overlap += part.overlap;
-    total.virial += part.virial;
-    total.distance_squared += part.distance_squared;
-    total.contacts += part.contacts;
-    total.max_ratio = std::max(total.max_ratio, part.max_ratio);
   }
   return total;
 }
 
-double OverlapMinimiser::move_discs(double keep, double steer, double step, bool stopped) {
-  std::vector<double> farthest(chunks_, 0.0);
-  team_.for_each(chunks_, [&](std::size_t chunk) {
-    double largest = 0.0;
-    for (std::size_t i = chunk * chunk_size; i < std::min(places_.size(), (chunk + 1) * chunk_size); ++i) {
-      const double ax = force_x_[i] * inverse_mass_[i], ay = force_y_[i] * inverse_mass_[i];
-      // Going uphill: half a step back, then from rest (Guenole et al. 2020).
-      const double back = stopped ? 0.5 * step : 0.0;
-      const double x = places_[i].x - back * speed_x_[i], y = places_[i].y - back * speed_y_[i];
-      const double base_x = stopped ? 0.0 : speed_x_[i], base_y = stopped ? 0.0 : speed_y_[i];
-      const double vx = keep * (base_x + step * ax) + steer * ax, vy = keep * (base_y + step * ay) + steer * ay;
-      speed_x_[i] = vx;
-      speed_y_[i] = vy;
-      places_[i].x = x + step * vx;
-      places_[i].y = y + step * vy;
-      const double mx = places_[i].x - listed_x_[i], my = places_[i].y - listed_y_[i];
-      largest = std::max(largest, mx * mx + my * my);
-    }
-    farthest[chunk] = largest;
-  });
-  return *std::max_element(farthest.begin(), farthest.end());
+double OverlapMinimiser::move(const Motion& motion) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::int64_t c = 0; c < chunks_; ++c) {
+    const std::size_t k = static_cast<std::size_t>(c);
+    farthest_[k] = move_discs(chunk(k), motion);
+  }
+  return *std::max_element(farthest_.begin(), farthest_.end());
 }
 
-OverlapState OverlapMinimiser::measure(const Sums& sums) const {
+OverlapState OverlapMinimiser::measure(double scale, const ForceSums& forces, const StopRule& stop,
+                                       std::int64_t iteration) {
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::int64_t c = 0; c < chunks_; ++c) {
+    const std::size_t k = static_cast<std::size_t>(c);
+    overlap_sums_[k] =
+        measure_overlaps(lists_.of_chunk(k), chunk(k), radius_.data() + k * chunk_size, radius_.data(), scale);
+  }
+  OverlapSums sums;
+  for (const OverlapSums& part : overlap_sums_) {
+    sums.overlap += part.overlap;
+    sums.virial += part.virial;
+    sums.distance_squared += part.distance_squared;
+    sums.contacts += part.contacts;
+    sums.max_ratio = std::max(sums.max_ratio, part.max_ratio);
+  }
   OverlapState state;
   const double area = discs_.width * discs_.height;
-  const double contacts = static_cast<double>(std::max<std::int64_t>(sums.contacts, 1));
   // Each pair was met from both ends.
   state.pressure = 0.25 * sums.virial / area;
   state.stiffness = 0.25 * sums.distance_squared / area;
-  state.mean_overlap = sums.overlap / contacts;
+  state.mean_overlap = sums.contacts > 0.0 ? sums.overlap / sums.contacts : 0.0;
   state.max_overlap_ratio = sums.max_ratio;
-  const double force = std::sqrt(sums.force_squared / static_cast<double>(places_.size()));
-  state.residual = sums.contacts > 0 ? force / state.mean_overlap : 0.0;
+  const double force = std::sqrt(forces.squared / static_cast<double>(places_.size()));
+  state.residual = sums.contacts > 0.0 ? force / state.mean_overlap : 0.0;
+  state.iterations = iteration;
+  state.converged = state.residual <= stop.residual || state.max_overlap_ratio <= stop.negligible_overlap;
   return state;
 }
 
 OverlapState OverlapMinimiser::minimise(double scale, const StopRule& stop) {
-  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].radius = scale * discs_.radius[i];
-  std::fill(speed_x_.begin(), speed_x_.end(), 0.0);
-  std::fill(speed_y_.begin(), speed_y_.end(), 0.0);
-  double skin = narrow_skin, step = first_step, steer = first_steer;
-  int downhill = 0;
-  std::int64_t listed_at = 0;
-  build_lists(skin);
+  std::fill(speed_.begin(), speed_.end(), Float2{});
+  double skin = narrow_skin;
+  renew_lists(scale, skin);
   OverlapState state;
+  std::int64_t listed_at = 0, age = 0;
   for (std::int64_t iteration = 0;; ++iteration) {
-    const bool check = iteration % iterations_between_checks == 0 || iteration >= stop.maximum_iterations;
-    const Sums sums = compute_forces(check);
-    if (check) {
-      state = measure(sums);
-      state.iterations = iteration;
-      state.converged = state.residual <= stop.residual || state.max_overlap_ratio <= stop.negligible_overlap;
+    const ForceSums forces = sum_forces(scale);
+    if (iteration % iterations_between_checks == 0 || iteration >= stop.maximum_iterations) {
+      state = measure(scale, forces, stop, iteration);
       if (state.converged || iteration >= stop.maximum_iterations) break;
     }
-    const bool stopped = sums.power < 0.0;
-    if (sums.power > 0.0) {
-      if (++downhill > steps_before_growth) {
-        step = std::min(step * step_growth, longest_step);
-        steer *= steer_decay;
-      }
-    } else {
-      downhill = 0;
-      step = std::max(step * step_cut, shortest_step);
-      steer = first_steer;
+    if (forces.power < 0.0) {
+      if (age < short_run) push_ = std::max(push_cut * push_, least_push);
+      age = 0;
     }
-    const double ratio = sums.force_squared > 0.0 ? std::sqrt(sums.speed_squared / sums.force_squared) : 0.0;
-    const double farthest = move_discs(1.0 - steer, stopped ? 0.0 : steer * ratio, step, stopped);
-    if (farthest > 0.25 * skin * skin) {
-      skin = iteration - listed_at < short_lived_list ? wide_skin : narrow_skin;
+    Motion motion;
+    motion.momentum = static_cast<float>(momentum(age));
+    motion.next_momentum = static_cast<float>(momentum(++age));
+    motion.push = static_cast<float>(push_);
+    if (move(motion) > 0.25 * skin * skin) {
+      skin = iteration - listed_at < short_lived ? wide_skin : narrow_skin;
       listed_at = iteration;
-      build_lists(skin);
+      renew_lists(scale, skin);
     }
   }
-  wrap_positions();
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    discs_.x[i] = places_[i].x;
-    discs_.y[i] = places_[i].y;
+    discs_.x[i] = inside(places_[i].x + static_cast<double>(moved_[i].x), discs_.width);
+    discs_.y[i] = inside(places_[i].y + static_cast<double>(moved_[i].y), discs_.height);
   }
   return state;
 }

@@ -1,11 +1,13 @@
-// What is here: soft discs in a periodic rectangle, pushed apart until the net forces of their overlaps vanish (FIRE),
-// on Verlet lists. What is not: the search for the jammed state (jam.h), sizes and start (make_packing.cpp).
+// What is here: soft discs in a periodic rectangle, pushed apart until the net forces of their overlaps vanish.
+// What is not: lists and force loops (pair_lists.h, pair_forces.h), the search for the jammed state (jam.h), sizes and
+// start (make_packing.cpp).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "geometry/thread_team.h"
+#include "geometry/pair_forces.h"
+#include "geometry/pair_lists.h"
 
 namespace perfora::geometry {
 
@@ -35,48 +37,39 @@ struct StopRule {
   std::int64_t maximum_iterations = 20000;
 };
 
-/// Fast inertial relaxation engine (Bitzek et al. 2006, Guenole et al. 2020), masses proportional to the radii.
-/// Every disc sums its own neighbours in a fixed order and reductions run over fixed chunks: the bits do not depend on
-/// the number of threads.
+/// Nesterov's accelerated descent, started anew where it goes uphill (O'Donoghue and Candes 2015), with masses
+/// proportional to the radii. Sums run over fixed chunks: the bits do not depend on the number of threads.
 class OverlapMinimiser {
  public:
-  /// Each pair acts through its nearest periodic image only, so a disc must be smaller than half the cell.
   OverlapMinimiser(SoftDiscs discs, int threads);
 
-  /// Minimises from the present positions with radii scale * radius. Cost: about 12 neighbours a disc and iteration.
+  /// Minimises from the present positions with radii scale * radius. Cost: about three pairs a disc and iteration.
   OverlapState minimise(double scale, const StopRule& stop);
 
   const SoftDiscs& discs() const { return discs_; }
 
  private:
-  struct Sums {
-    double force_squared = 0.0, speed_squared = 0.0, power = 0.0;
-    double overlap = 0.0, virial = 0.0, distance_squared = 0.0;
-    std::int64_t contacts = 0;
-    double max_ratio = 0.0;
-  };
-  void wrap_positions();
-  void build_lists(double skin);
-  Sums compute_forces(bool measured);
-  template <bool measured>
-  Sums forces_of_chunk(std::size_t chunk);
-  /// Moves all discs; returns the largest squared displacement since the lists were built.
-  double move_discs(double keep, double steer, double step, bool stopped);
-  OverlapState measure(const Sums& sums) const;
-
-  /// What a pair needs of a disc, in half a cache line.
-  struct Place {
-    double x, y, radius, unused;
-  };
+  ChunkDiscs chunk(std::size_t k);
+  void renew_lists(double scale, double skin);
+  void take_over_moves();
+  ForceSums sum_forces(double scale);
+  double move(const Motion& motion);
+  OverlapState measure(double scale, const ForceSums& forces, const StopRule& stop, std::int64_t iteration);
 
   SoftDiscs discs_;
-  std::size_t chunks_;
-  ThreadTeam team_;
-  std::vector<Place> places_;
-  std::vector<double> mass_, inverse_mass_;
-  std::vector<double> force_x_, force_y_, speed_x_, speed_y_, listed_x_, listed_y_;
-  std::vector<std::vector<std::int32_t>> neighbours_;  ///< one array a chunk
-  std::vector<std::int32_t> list_end_;                 ///< end of a disc's neighbours in its chunk's array
+  int threads_;
+  std::int64_t chunks_;
+  double largest_radius_ = 0.0;
+  PairLists lists_;
+  double push_;  ///< displacement over force and mass
+  double searched_scale_ = 0.0, searched_margin_ = 0.0;
+  std::vector<Place> places_;             ///< at the last search for pairs
+  std::vector<Float2> moved_, selected_;  ///< displacements since then: now, at the last selection of near pairs
+  std::vector<Float2> speed_, force_, inverse_mass_;
+  std::vector<float> radius_;
+  std::vector<ForceSums> force_sums_;  ///< one a chunk, as the next two
+  std::vector<OverlapSums> overlap_sums_;
+  std::vector<double> farthest_;
 };
 
 }  // namespace perfora::geometry

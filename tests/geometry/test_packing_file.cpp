@@ -105,7 +105,7 @@ TEST_F(PackingFile, AKeyThatDisagreesNamesTheFieldAndBothValues) {
   for (const auto& change : std::vector<std::function<void(PackingKey&)>>{
            [](PackingKey& key) { key.width = 1; }, [](PackingKey& key) { key.height = 1; },
            [](PackingKey& key) { key.mean_diameter = 1; }, [](PackingKey& key) { key.maximum_diameter = 2; },
-           [](PackingKey& key) { key.size_ratio = 2; }, [](PackingKey& key) { key.algorithm_version = 2; },
+           [](PackingKey& key) { key.size_ratio = 2; }, [](PackingKey& key) { key.algorithm_version = packing_algorithm_version + 1; },
            [](PackingKey& key) { key.source = "crc32:1"; }})
     EXPECT_NE(complaint(change), "");
 }
