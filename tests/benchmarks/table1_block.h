@@ -9,8 +9,8 @@
 
 namespace perfora::benchmarks {
 
-/// The block of Table 1 with its 36 holes: some 36,600 discs. The packing is quenched at its solid fraction, which is
-/// quicker than the designs' way over the jammed state and as good for timing.
+/// The block of Table 1 with its 36 holes (some 36,600 discs), or a square of fewer or more of them. The packing is
+/// quenched at its solid fraction, which is quicker than the designs' way over the jammed state and as good for timing.
 struct Block {
   geometry::Packing packing;
   geometry::PerforationLayout layout;
@@ -20,15 +20,15 @@ struct Block {
   double mean_diameter = 0.0;
 };
 
-inline Block table1_block(double horizon = 3.0) {
+inline Block table1_block(double horizon = 3.0, int holes_a_side = 6) {
   Block b;
   geometry::PackingOptions packing;
   packing.solid_fraction = 0.719;
   packing.protocol = geometry::PackingProtocol::quench;
   geometry::LayoutOptions layout;
-  layout.rows = layout.columns = 6;
+  layout.rows = layout.columns = holes_a_side;
   layout.diameter = 20e-3;
-  constexpr double side = 0.15;
+  const double side = 0.025 * holes_a_side;
   b.mean_diameter = packing.mean_diameter;
   layout.width = layout.height = side;
   b.layout = geometry::make_layout(layout, 1);
