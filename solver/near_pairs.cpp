@@ -22,23 +22,54 @@ void NearPairs::configure(std::int32_t discs, double largest_radius, double skin
   active_.assign(at(discs), 0);
 }
 
-void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const BondNetwork& network) {
-  const std::int32_t n = discs.size();
-  if (first_bond_.size() != at(n) + 1) {  // bonds are sorted by (i, j): rows of i, made once
-    first_bond_.assign(at(n) + 1, 0);
-    for (const std::int32_t i : network.i) ++first_bond_[at(i) + 1];
-    for (std::size_t k = 1; k < first_bond_.size(); ++k) first_bond_[k] += first_bond_[k - 1];
+/// Bonds are sorted by (i, j): rows of i, made once.
+void NearPairs::find_bond_rows(const BondNetwork& network, std::int32_t discs) {
+  if (first_bond_.size() == at(discs) + 1) return;
+  first_bond_.assign(at(discs) + 1, 0);
+  for (const std::int32_t i : network.i) ++first_bond_[at(i) + 1];
+  for (std::size_t k = 1; k < first_bond_.size(); ++k) first_bond_[k] += first_bond_[k - 1];
+}
+
+bool NearPairs::intact(const BondNetwork& network, std::int32_t i, std::int32_t j) const {
+  const auto [low, high] = std::minmax(i, j);
+  const auto begin = network.j.begin() + first_bond_[at(low)], end = network.j.begin() + first_bond_[at(low) + 1];
+  const auto found = std::lower_bound(begin, end, high);
+  return found != end && *found == high &&
+         network.state[static_cast<std::size_t>(found - network.j.begin())] == BondState::intact;
+}
+
+void NearPairs::list_row(std::int32_t i, const DiscState& discs, const CellMatrix& cell, const BondNetwork& network,
+                         std::vector<NearSlot>& slots) {
+  const std::size_t first = slots.size();
+  grid_.around(i, [&](std::int32_t j) {
+    const double dx = reduced(discs.sx[at(j)] - discs.sx[at(i)]), dy = reduced(discs.sy[at(j)] - discs.sy[at(i)]);
+    const double rx = cell.xx * dx + cell.xy * dy, ry = cell.yy * dy;
+    const double contact = discs.radius[at(i)] + discs.radius[at(j)];
+    const double limit = contact + skin_;
+    if (rx * rx + ry * ry < limit * limit) slots.push_back({j, 0, contact, {}});
+  });
+  const auto begin = slots.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, slots.end(), [](const NearSlot& a, const NearSlot& b) { return a.neighbour < b.neighbour; });
+  std::int32_t active = 0, old = old_start_[at(i)];
+  const std::int32_t old_end = old_start_[at(i) + 1];
+  for (auto slot = begin; slot != slots.end(); ++slot) {
+    while (old < old_end && old_slots_[at(old)].neighbour < slot->neighbour) ++old;
+    if (old < old_end && old_slots_[at(old)].neighbour == slot->neighbour) {
+      *slot = old_slots_[at(old)];
+    } else {
+      slot->bonded = intact(network, i, slot->neighbour) ? 1 : 0;
+    }
+    active += slot->bonded ? 0 : 1;
   }
-  const auto intact = [&](std::int32_t i, std::int32_t j) {
-    const auto [low, high] = std::minmax(i, j);
-    const auto begin = network.j.begin() + first_bond_[at(low)], end = network.j.begin() + first_bond_[at(low) + 1];
-    const auto found = std::lower_bound(begin, end, high);
-    return found != end && *found == high &&
-           network.state[static_cast<std::size_t>(found - network.j.begin())] == BondState::intact;
-  };
+  active_[at(i)] = active;
+  start_[at(i) + 1] = static_cast<std::int32_t>(slots.size() - first);
+}
+
+void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const BondNetwork& network, int threads) {
+  const std::int32_t n = discs.size(), chunks = (n + chunk_discs - 1) / chunk_discs;
+  find_bond_rows(network, n);
   std::swap(slots_, old_slots_);
   std::swap(start_, old_start_);
-  slots_.clear();
   const double reach = 2.0 * largest_radius_ + skin_;
   // With shear the rows of bins lean: a bin must hold the lean, too.
   const double reach_y = reach / cell.yy, reach_x = (reach + std::fabs(cell.xy) * reach_y) / cell.xx;
@@ -46,31 +77,17 @@ void NearPairs::rebuild(const DiscState& discs, const CellMatrix& cell, const Bo
     return std::pair{static_cast<double>(discs.sx[at(k)] >> 11) * 0x1p-53,
                      static_cast<double>(discs.sy[at(k)] >> 11) * 0x1p-53};
   });
-  for (std::int32_t i = 0; i < n; ++i) {
-    start_[at(i)] = static_cast<std::int32_t>(slots_.size());
-    grid_.around(i, [&](std::int32_t j) {
-      const double dx = reduced(discs.sx[at(j)] - discs.sx[at(i)]), dy = reduced(discs.sy[at(j)] - discs.sy[at(i)]);
-      const double rx = cell.xx * dx + cell.xy * dy, ry = cell.yy * dy;
-      const double contact = discs.radius[at(i)] + discs.radius[at(j)];
-      const double limit = contact + skin_;
-      if (rx * rx + ry * ry < limit * limit) slots_.push_back({j, 0, contact, {}});
-    });
-    const auto begin = slots_.begin() + start_[at(i)];
-    std::sort(begin, slots_.end(), [](const NearSlot& a, const NearSlot& b) { return a.neighbour < b.neighbour; });
-    active_[at(i)] = 0;
-    std::int32_t old = old_start_[at(i)];
-    const std::int32_t old_end = old_start_[at(i) + 1];
-    for (auto slot = begin; slot != slots_.end(); ++slot) {
-      while (old < old_end && old_slots_[at(old)].neighbour < slot->neighbour) ++old;
-      if (old < old_end && old_slots_[at(old)].neighbour == slot->neighbour) {
-        *slot = old_slots_[at(old)];
-      } else {
-        slot->bonded = intact(i, slot->neighbour) ? 1 : 0;
-      }
-      active_[at(i)] += slot->bonded ? 0 : 1;
-    }
+  chunk_slots_.resize(at(chunks));
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::int32_t c = 0; c < chunks; ++c) {
+    chunk_slots_[at(c)].clear();
+    for (std::int32_t i = c * chunk_discs; i < std::min(n, (c + 1) * chunk_discs); ++i)
+      list_row(i, discs, cell, network, chunk_slots_[at(c)]);
   }
-  start_[at(n)] = static_cast<std::int32_t>(slots_.size());
+  slots_.clear();
+  for (const auto& part : chunk_slots_) slots_.insert(slots_.end(), part.begin(), part.end());
+  start_[0] = 0;
+  for (std::int32_t i = 0; i < n; ++i) start_[at(i) + 1] += start_[at(i)];
   reference_x_ = discs.sx;
   reference_y_ = discs.sy;
   reference_cell_ = cell;

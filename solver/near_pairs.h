@@ -27,7 +27,7 @@ class NearPairs {
   void configure(std::int32_t discs, double largest_radius, double skin);
   /// Lists all near pairs anew and carries histories over. Intact bonds are looked up in the network (rows of
   /// `first_bond`). Keeps its memory.
-  void rebuild(const DiscState& discs, const CellMatrix& cell, const BondNetwork& network);
+  void rebuild(const DiscState& discs, const CellMatrix& cell, const BondNetwork& network, int threads = 1);
   /// Whether the list may miss a pair: largest fluctuating displacement since the last rebuild and the change of the
   /// cell against the skin.
   bool outdated(double largest_displacement, const CellMatrix& cell) const;
@@ -62,12 +62,19 @@ class NearPairs {
   void restore(const Snapshot& snapshot);
 
  private:
+  void find_bond_rows(const BondNetwork& network, std::int32_t discs);
+  bool intact(const BondNetwork& network, std::int32_t i, std::int32_t j) const;
+  /// Appends row i to `slots`; its length stands in start_[i + 1] until all rows are there.
+  void list_row(std::int32_t i, const DiscState& discs, const CellMatrix& cell, const BondNetwork& network,
+                std::vector<NearSlot>& slots);
+
   double largest_radius_ = 0.0;
   double skin_ = 0.0;
   CellMatrix reference_cell_;
   std::vector<std::uint64_t> reference_x_, reference_y_;
   std::vector<std::int32_t> start_, active_, old_start_, first_bond_;
   std::vector<NearSlot> slots_, old_slots_;
+  std::vector<std::vector<NearSlot>> chunk_slots_;
   CellGrid grid_;
   std::int64_t rebuilds_ = 0;
 };

@@ -105,7 +105,7 @@ Simulation::Simulation(SimulationInput input)
                                        2.0 * largest_radius + skin_share * input.mean_diameter);
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
-  near_pairs_.rebuild(discs_, now_, network_);
+  near_pairs_.rebuild(discs_, now_, network_, threads_);
   walls_ = Walls(std::move(input.walls), contact_law_, 1.0 / bond_law_.inverse_critical_normal, discs_, now_);
   backend_ = options_.dynamics.kernel == KernelChoice::reference
                  ? make_reference_backend(bond_law_, contact_law_)
@@ -155,7 +155,7 @@ void Simulation::keep_near_pairs() {
   progress_.travelled = near_pairs_.largest_displacement(discs_, now_);
   if (!near_pairs_.outdated(progress_.travelled / renewal_share, now_)) return;
   backend_->collect(near_pairs_);
-  near_pairs_.rebuild(discs_, now_, network_);
+  near_pairs_.rebuild(discs_, now_, network_, threads_);
   backend_->list(near_pairs_, discs_);
   progress_.travelled = 0.0;
 }
