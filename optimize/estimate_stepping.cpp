@@ -56,10 +56,10 @@ double strength_deviation(const solver::NoiseOptions& noise) {
   return 0.0;
 }
 
-/// Stiffness of the springs of a mean disc, K_i of solver/mass.h.
+/// What the mass of a mean disc is proportional to with uniform_step, solver/mass.h.
 double mean_stiffness(const solver::MaterialOptions& material, double bonds_per_disc) {
   return 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
-         6.0 * material.normal_stiffness;
+         60.0 * material.normal_stiffness;
 }
 
 solver::LoadingEstimate estimate_loading(const solver::SolverOptions& options,

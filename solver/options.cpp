@@ -80,7 +80,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
             "Local damping coefficient, per component.")
       .choice("mass", dynamics.mass, {{"uniform_step", MassScaling::uniform_step}, {"physical", MassScaling::physical}},
-              "uniform_step: masses and inertias scaled to one common critical step, total mass kept; physical for "
+              "uniform_step: masses and inertias scaled to nearly one critical step, total mass kept; physical for "
               "wave problems.")
       .real("step_factor", dynamics.step_factor, Dimension::ratio, {0.0, 0.95, true, false},
             "Time step over the critical one.")

@@ -64,7 +64,7 @@ struct LoadingOptions {
 struct DynamicsOptions {
   double cundall_damping = 0.7;
   MassScaling mass = MassScaling::uniform_step;
-  double step_factor = 0.5;  ///< of the critical step
+  double step_factor = 0.6;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;
   SimdChoice simd = SimdChoice::automatic;  ///< of the bond kernel
 };

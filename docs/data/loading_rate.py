@@ -35,8 +35,8 @@ WAYS = {
     "default": [],
     "constant": ["loading.control=constant"],
     "half_rate": ["loading.transits=50"],
-    # Contacts limit the default step to 0.46 of the critical one: this is half of that.
-    "half_step": ["dynamics.step_factor=0.23"],
+    # Contacts limit the default step to 0.58 of the critical one: this is half of that.
+    "half_step": ["dynamics.step_factor=0.29"],
     "physical_mass": ["dynamics.mass=physical"],
     "constant_half_rate": ["loading.control=constant", "loading.transits=50"],
 }
