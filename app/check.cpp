@@ -45,7 +45,7 @@ std::string estimate_text(const optimize::DesignEstimate& estimate, int threads)
   text += line("bonds", count(estimate.bonds));
   text += line("bonds per disc", fmt::format("{:.3g}", estimate.bonds_per_disc));
   text += line("time step", fmt::format("{:.3g} us", 1e6 * estimate.time_step));
-  text += line("strain rate", fmt::format("{:.3g} 1/s", estimate.rate));
+  text += line("mean strain rate", fmt::format("{:.3g} 1/s", estimate.rate));
   text += line("steps", count(estimate.steps));
   text += line("memory", memory_text(estimate.memory_bytes));
   text += line("disk", memory_text(estimate.disk_bytes));

@@ -8,6 +8,7 @@
 
 #include "geometry/size_law.h"
 #include "optimize/estimate_stepping.h"
+#include "solver/run_setup.h"
 
 #include "solver/mass.h"
 #include "solver/noise.h"
@@ -73,12 +74,15 @@ void estimate_steps(const Design& design, const geometry::PerforationLayout& lay
   const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
   const SteppingEstimate stepping = estimate_stepping(
       design.solver, layout, {density, discs.mean_diameter, estimate.bonds_per_disc, discs.diameters});
-  estimate.rate = stepping.rate;
   const double interval = design.solver.output.history_interval;
-  const double steps_per_row = std::max(1.0, std::ceil(interval / (estimate.rate * stepping.time_step)));
-  estimate.time_step = interval / (estimate.rate * steps_per_row);
+  const solver::LoadingPlan plan = solver::plan_loading(stepping.loading, design.solver.loading,
+                                                        solver::loaded_block(layout), interval, stepping.time_step);
+  estimate.time_step = plan.time_step;
   constexpr double rounding = 1e-9;
-  estimate.steps = std::llround(std::ceil(design.solver.loading.until / interval - rounding) * steps_per_row);
+  const double until = std::ceil(design.solver.loading.until / interval - rounding) * interval;
+  estimate.steps = solver::expected_steps(plan, stepping.loading, until,
+                                          stepping.loading.bulk_density / design.solver.material.density);
+  estimate.rate = until / (static_cast<double>(estimate.steps) * estimate.time_step);
 }
 
 double frame_count(const solver::SolverOptions& options) {

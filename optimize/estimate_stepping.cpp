@@ -56,16 +56,16 @@ double strength_deviation(const solver::NoiseOptions& noise) {
   return 0.0;
 }
 
-/// Stiffness of the springs of a mean disc, K_i of solver/mass.h.
+/// What the mass of a mean disc is proportional to with uniform_step, solver/mass.h.
 double mean_stiffness(const solver::MaterialOptions& material, double bonds_per_disc) {
   return 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
-         6.0 * material.normal_stiffness;
+         60.0 * material.normal_stiffness;
 }
 
-double loading_rate(const solver::SolverOptions& options, const geometry::PerforationLayout& layout,
-                    const PatchDiscs& discs, const geometry::Packing& patch, solver::BondNetwork network,
-                    double patch_bonds) {
-  if (options.loading.rate > 0.0) return options.loading.rate;
+solver::LoadingEstimate estimate_loading(const solver::SolverOptions& options,
+                                         const geometry::PerforationLayout& layout, const PatchDiscs& discs,
+                                         const geometry::Packing& patch, solver::BondNetwork network,
+                                         double patch_bonds) {
   // Two strengths, one deviation apart from the mean: the statistics of the field without its lattice, which the patch
   // is too small for.
   const double deviation = strength_deviation(options.noise);
@@ -75,9 +75,13 @@ double loading_rate(const solver::SolverOptions& options, const geometry::Perfor
   const double solid = layout.solid_area_fraction();
   // The same springs and masses spread over the holes as well.
   const double width = patch.width * patch.height / (solid * layout.height);
-  const solver::LoadingEstimate loading =
+  solver::LoadingEstimate loading =
       solver::estimate_loading(network, masses, options, width, layout.height, 1.0 - solid, discs.mean_diameter);
-  return loading.rate * std::sqrt(discs.bonds_per_disc / patch_bonds);
+  const double stiffer = discs.bonds_per_disc / patch_bonds;
+  loading.modulus *= stiffer;
+  loading.wave_speed *= std::sqrt(stiffer);
+  loading.rate *= std::sqrt(stiffer);
+  return loading;
 }
 
 }  // namespace
@@ -103,7 +107,7 @@ SteppingEstimate estimate_stepping(const solver::SolverOptions& options, const g
   if (options.dynamics.mass == solver::MassScaling::uniform_step)  // total mass over total stiffness
     estimate.time_step *= std::sqrt(mean_stiffness(options.material, patch_bonds) /
                                     mean_stiffness(options.material, discs.bonds_per_disc));
-  estimate.rate = loading_rate(
+  estimate.loading = estimate_loading(
       options, layout, discs, patch,
       solver::make_bond_network(patch, no_holes, options.material, request.options.noise, 1, discs.mean_diameter),
       patch_bonds);

@@ -1,10 +1,11 @@
-// What is here: time step and loading rate a run would take, from a small patch of discs instead of the packing. What
-// is not: counts (estimate.h).
+// What is here: time step a run would take, and what its rate follows from, from a small patch of discs instead of the
+// packing. What is not: counts (estimate.h).
 #pragma once
 
 #include <vector>
 
 #include "geometry/perforation.h"
+#include "solver/mass.h"
 #include "solver/options.h"
 
 namespace perfora::optimize {
@@ -18,8 +19,8 @@ struct PatchDiscs {
 };
 
 struct SteppingEstimate {
-  double time_step = 0.0;  ///< s, the longest the solver would take
-  double rate = 0.0;       ///< 1/s
+  double time_step = 0.0;           ///< s, the longest the solver would take
+  solver::LoadingEstimate loading;  ///< what the rate follows from
 };
 
 /// Asks the solver itself (estimate_run, estimate_loading) about a shaken triangular lattice of some hundred discs

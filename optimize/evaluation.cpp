@@ -24,6 +24,8 @@ solver::Summary empty_summary() {
   solver::Summary summary;
   for (double* value : {&summary.time_step,
                         &summary.rate,
+                        &summary.smallest_rate,
+                        &summary.largest_rate,
                         &summary.first_peak_stress,
                         &summary.first_peak_strain,
                         &summary.stress_drop_ratio,

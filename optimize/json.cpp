@@ -50,6 +50,8 @@ struct SummaryNumber {
 constexpr SummaryNumber summary_numbers[] = {
     {"time_step", &solver::Summary::time_step},
     {"rate", &solver::Summary::rate},
+    {"smallest_rate", &solver::Summary::smallest_rate},
+    {"largest_rate", &solver::Summary::largest_rate},
     {"final_strain", &solver::Summary::final_strain},
     {"first_peak_stress", &solver::Summary::first_peak_stress},
     {"first_peak_strain", &solver::Summary::first_peak_strain},

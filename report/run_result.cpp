@@ -22,11 +22,29 @@ constexpr const char* test_format = "perfora.test/1";
 constexpr const char* elastic_format = "perfora.elastic/1";
 
 /// Order of docs/formats.md (HDF5 lists its members by the alphabet).
-constexpr std::array<const char*, 22> history_order = {
-    "strain_yy",        "strain_yy_log", "stress_yy", "stress_xx", "stress_xy",     "stress_asymmetry",
-    "broken_bonds",     "fragments",     "contacts",  "time",      "external_work", "elastic_bonds",
-    "elastic_contacts", "kinetic",       "damage",    "friction",  "viscous",       "cundall",
-    "platen_stress_bottom", "platen_stress_top", "wall_stress_left", "wall_stress_right"};
+constexpr std::array<const char*, 23> history_order = {"strain_yy",
+                                                       "strain_yy_log",
+                                                       "stress_yy",
+                                                       "stress_xx",
+                                                       "stress_xy",
+                                                       "stress_asymmetry",
+                                                       "broken_bonds",
+                                                       "fragments",
+                                                       "contacts",
+                                                       "time",
+                                                       "rate",
+                                                       "external_work",
+                                                       "elastic_bonds",
+                                                       "elastic_contacts",
+                                                       "kinetic",
+                                                       "damage",
+                                                       "friction",
+                                                       "viscous",
+                                                       "cundall",
+                                                       "platen_stress_bottom",
+                                                       "platen_stress_top",
+                                                       "wall_stress_left",
+                                                       "wall_stress_right"};
 
 [[noreturn]] void refuse(const io::Hdf5Reader& file, const std::string& key, const std::string& problem,
                          const std::string& allowed = {}) {

@@ -39,7 +39,7 @@ Unit unit_of(std::string_view key) {
     return {100.0, " %"};
   if (ends(key, "diameter") || has(key, "thinnest_wall") || key == "width" || key == "height") return {1e3, " mm"};
   if (key == "time_step") return {1e6, " us"};
-  if (key == "rate") return {1.0, " 1/s"};
+  if (ends(key, "rate")) return {1.0, " 1/s"};
   if (key == "seconds") return {1.0, " s"};
   if (key == "energy_absorbed") return {1e-3, " kJ/m3"};
   if (key == "peak_memory") return {1e-6, " MB"};

@@ -19,8 +19,8 @@ struct MassProperties {
 
 /// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over
 /// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/theory.md, "Motion"). `physical`: rho pi R^2 and m
-/// R^2/2. `uniform_step`: m_i ~ K_i with the total kept and I_i = m_i KR_i/K_i, so that every disc has the same
-/// critical step; statics are exact.
+/// R^2/2. `uniform_step`: m_i ~ K_i + 54 k_n (contacts count tenfold) with the total kept and I_i = m_i KR_i/K_i, so
+/// that all discs have nearly the same critical step in bonds and in contacts; statics are exact.
 MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
                            const MaterialOptions& material, const DynamicsOptions& dynamics);
 
@@ -61,10 +61,6 @@ struct BlockMeans {
   double strength = 1.0;          ///< mean strength factor less its standard deviation
 };
 LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options);
-
-/// Critical step by power iteration over the bound per disc, for uniform_step: measured 1.43 to 1.44 on Table 1's
-/// networks.
-inline constexpr double uniform_step_gain = 1.43;
 
 /// Factor on the critical displacements for this disc size (docs/theory.md, "Resolution").
 double threshold_factor(const MaterialOptions& material, double mean_diameter);

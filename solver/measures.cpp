@@ -111,6 +111,15 @@ double energy_residual(const History& history, double from_strain) {
   return worst;
 }
 
+void measure_rate(const History& history, Summary& summary) {
+  summary.rate = summary.smallest_rate = summary.largest_rate = nan;
+  if (history.rows() < 2) return;
+  const auto [smallest, largest] = std::minmax_element(history.rate.begin() + 1, history.rate.end());
+  summary.rate = history.strain_yy.back() / history.time.back();
+  summary.smallest_rate = *smallest;
+  summary.largest_rate = *largest;
+}
+
 double loading_modulus(const History& history, double peak_stress, double peak_strain) {
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, n = 0.0;
   for (std::size_t k = 0; k < history.rows() && history.strain_yy[k] <= peak_strain; ++k) {

@@ -16,6 +16,9 @@ void measure_curve(const History& history, double plateau_start, double plateau_
 /// `from_strain` are left out.
 double energy_residual(const History& history, double from_strain);
 
+/// Mean of the run, smallest and largest of all rows; NaN without a row after the first.
+void measure_rate(const History& history, Summary& summary);
+
 /// Slope of the curve between a quarter and three quarters of the first peak, Pa; NaN when it cannot be fitted.
 double loading_modulus(const History& history, double peak_stress, double peak_strain);
 

@@ -62,18 +62,25 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("weibull_modulus", noise.weibull_modulus, Dimension::none, {0.5, 1000.0, false, false},
             "Weibull: shape parameter; the mean factor is 1.");
   LoadingOptions& loading = options.loading;
-  schema.section("loading", "Oedometric compression: height at constant speed, width fixed.")
+  schema.section("loading", "Oedometric compression: the height falls, the width is held.")
       .real("until", loading.until, Dimension::ratio, {0.0, largest_run_strain, true, false},
             "Engineering strain to run to.")
-      .real("rate", loading.rate, Dimension::rate, Range::non_negative(), "Strain rate dH/dt/H0; 0: from transits.")
+      .choice("control", loading.control,
+              {{"adaptive", LoadingControl::adaptive}, {"constant", LoadingControl::constant}},
+              "adaptive: slow before the first peak and in avalanches, faster as the rubble carries more "
+              "(docs/theory.md, \"Loading rate\"); constant: one rate from transits.")
+      .real("rate", loading.rate, Dimension::rate, Range::non_negative(),
+            "Strain rate dH/dt/H0, constant; 0: from control and transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),
-            "Wave transits of the block before the first peak, from its estimated modulus and peak strain.");
+            "Wave transits of the block before the first peak, from its estimated modulus and peak strain: the higher, "
+            "the "
+            "slower everything goes.");
   DynamicsOptions& dynamics = options.dynamics;
   schema.section("dynamics", "Integration and damping.")
       .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
             "Local damping coefficient, per component.")
       .choice("mass", dynamics.mass, {{"uniform_step", MassScaling::uniform_step}, {"physical", MassScaling::physical}},
-              "uniform_step: masses and inertias scaled to one common critical step, total mass kept; physical for "
+              "uniform_step: masses and inertias scaled to nearly one critical step, total mass kept; physical for "
               "wave problems.")
       .real("step_factor", dynamics.step_factor, Dimension::ratio, {0.0, 0.95, true, false},
             "Time step over the critical one.")

@@ -13,6 +13,7 @@ enum class DamageForm { linear_damage, linear_force };
 enum class DamageInCompression { none, full };
 enum class ThresholdScaling { none, strength, toughness };
 enum class NoiseKind { none, perlin, weibull };
+enum class LoadingControl { adaptive, constant };
 enum class MassScaling { uniform_step, physical };
 enum class FrameChoice { none, few, all };
 enum class KernelChoice { reference, openmp };
@@ -51,10 +52,11 @@ struct NoiseOptions {
   double weibull_modulus = 4.0;
 };
 
-/// [loading]: oedometric compression at constant dH/dt.
+/// [loading]: oedometric compression: dH/dt controlled, or constant.
 struct LoadingOptions {
-  double until = 0.60;     ///< engineering strain
-  double rate = 0.0;       ///< 1/s; 0: from `transits`
+  double until = 0.60;  ///< engineering strain
+  LoadingControl control = LoadingControl::adaptive;
+  double rate = 0.0;       ///< 1/s, constant; 0: from `transits`
   double transits = 25.0;  ///< wave transits of the block before the first peak
 };
 
@@ -62,7 +64,7 @@ struct LoadingOptions {
 struct DynamicsOptions {
   double cundall_damping = 0.7;
   MassScaling mass = MassScaling::uniform_step;
-  double step_factor = 0.5;  ///< of the critical step
+  double step_factor = 0.6;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;
   SimdChoice simd = SimdChoice::automatic;  ///< of the bond kernel
 };

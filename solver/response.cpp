@@ -27,6 +27,7 @@ const std::vector<History::Column>& History::columns() {
       {"fragments", "", &History::fragments},
       {"contacts", "", &History::contacts},
       {"time", "s", &History::time},
+      {"rate", "1/s", &History::rate},
       {"external_work", "J/m", &History::external_work},
       {"elastic_bonds", "J/m", &History::elastic_bonds},
       {"elastic_contacts", "J/m", &History::elastic_contacts},

@@ -20,6 +20,7 @@ struct History {
   std::vector<double> stress_yy, stress_xx, stress_xy, stress_asymmetry;
   std::vector<double> broken_bonds, fragments, contacts;
   std::vector<double> time;
+  std::vector<double> rate;  ///< of the strain, mean since the last row, 1/s; 0 in the first
   std::vector<double> external_work, elastic_bonds, elastic_contacts, kinetic, damage, friction, viscous, cundall;
   /// Normal force over the block's nominal edge; empty without platens or side walls.
   std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
@@ -54,7 +55,8 @@ struct Summary {
   std::string reason;  ///< "reached strain 0.6", "wall time", "signal", "unstable step", ...
   std::int64_t steps = 0;
   double time_step = 0.0;
-  double rate = 0.0;  ///< 1/s
+  double rate = 0.0;                               ///< mean of the run, 1/s
+  double smallest_rate = 0.0, largest_rate = 0.0;  ///< of all rows, 1/s
   double final_strain = 0.0;
   double first_peak_stress = 0.0, first_peak_strain = 0.0;
   double stress_drop_ratio =

@@ -42,14 +42,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Cell oedometric_cell(const CellMatrix& start, double rate) {
-  Cell cell;
-  cell.start = start;
-  cell.control = {CellControl::fixed, CellControl::fixed, CellControl::rate};
-  cell.velocity = {0.0, 0.0, -rate * start.yy};
-  return cell;
-}
-
 /// Rows after which a frame is written, the first peak aside.
 bool frame_due(const OutputOptions& output, std::int64_t row, std::int64_t rows) {
   const auto at_multiple = [&](double stride) {
@@ -83,18 +75,18 @@ class Run {
     response_.bonds = setup_.network.size();
     response_.bonds_per_disc =
         response_.discs > 0 ? 2.0 * static_cast<double>(response_.bonds) / static_cast<double>(response_.discs) : 0.0;
-    summary.time_step = setup_.time_step;
-    summary.rate = setup_.rate;
-    summary.step_margin = setup_.critical_step / setup_.time_step;
+    summary.time_step = setup_.plan.time_step;
+    summary.step_margin = setup_.critical_step / setup_.plan.time_step;
     SimulationInput input;
     input.clipped = &setup_.specimen.packing;
     input.network = setup_.network;
     input.options = request.options;
     input.masses = setup_.masses;
-    input.cell = oedometric_cell(setup_.specimen.cell, setup_.rate);
+    input.cell.start = setup_.specimen.cell;  // the width is held, the plan moves the height
+    input.loading = setup_.plan;
     input.block = setup_.specimen.block;
     input.walls = setup_.specimen.walls;
-    input.time_step = setup_.time_step;
+    input.time_step = setup_.plan.time_step;
     input.mean_diameter = request.mean_diameter;
     input.threads = request.threads;
     simulation_.emplace(std::move(input));
@@ -149,7 +141,8 @@ class Run {
     while (progress_.rows < setup_.rows) {
       simulation_->step();
       const std::int64_t steps = simulation_->steps();
-      if (steps % setup_.steps_per_row == 0) {
+      const LoadingState& path = simulation_->loading();
+      if (path.steps == 0.0 && static_cast<std::int64_t>(path.segment) % setup_.plan.segments_per_row == 0) {
         ++progress_.rows;
         add_row();
         if (failed()) return;
@@ -202,6 +195,8 @@ class Run {
     h.broken_bonds.push_back(static_cast<double>(simulation_->events().size()));
     h.fragments.push_back(fragments_.count);
     h.contacts.push_back(static_cast<double>(simulation_->contacts()));
+    h.rate.push_back(
+        h.time.empty() ? 0.0 : (strain - h.strain_yy[h.time.size() - 1]) / (simulation_->time() - h.time.back()));
     h.time.push_back(simulation_->time());
     h.external_work.push_back(energy.external_work);
     h.elastic_bonds.push_back(energy.elastic_bonds);
@@ -273,6 +268,7 @@ class Run {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     s.steps = simulation_->steps();
     s.final_strain = simulation_->strain();
+    measure_rate(h, s);
     s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
     const double area = request_.layout->width * request_.layout->height;
@@ -291,7 +287,7 @@ class Run {
         simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
     const double modulus = loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
     const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
-    s.transits_before_peak = s.first_peak_strain / setup_.rate * wave_speed / request_.layout->height;
+    s.transits_before_peak = simulation_->peak_time() * wave_speed / request_.layout->height;
     s.kinetic_ratio_at_peak = simulation_->peak_frozen() ? progress_.kinetic_ratio : nan;
 
     Performance& p = response_.performance;

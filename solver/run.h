@@ -57,7 +57,8 @@ struct Response {
 /// io::InputError.
 Response run_compression(const RunRequest& request);
 
-/// Counts, step and rate of a run, without running; what they cost is estimated in optimize/estimate.h.
+/// Counts, step and mean rate of a run, without running (expected_steps of loading_rate.h); what they cost is estimated
+/// in optimize/estimate.h.
 struct RunEstimate {
   std::int64_t discs = 0, bonds = 0, steps = 0;
   double time_step = 0.0, rate = 0.0;

@@ -14,7 +14,7 @@
 namespace perfora::solver {
 namespace {
 
-constexpr const char* checkpoint_format = "perfora.checkpoint/3";
+constexpr const char* checkpoint_format = "perfora.checkpoint/4";
 
 /// The configuration without the strain to run to: a stopped run may be resumed to another end.
 std::string without_until(const std::string& config) {
@@ -43,7 +43,7 @@ std::vector<double> pack(const Simulation::Progress& p) {
           p.row_sum.xy,
           p.row_sum.yx,
           p.row_sum.yy,
-          p.row_steps,
+          p.row_weight,
           p.peak_stress,
           p.peak_strain,
           p.peak_frozen,
@@ -53,21 +53,54 @@ std::vector<double> pack(const Simulation::Progress& p) {
           p.cell.xx,
           p.cell.xy,
           p.cell.yy,
-          p.travelled};
+          p.travelled,
+          p.peak_step,
+          p.loading.segment,
+          p.loading.step,
+          p.loading.steps,
+          p.loading.rate,
+          p.loading.stress_sum,
+          p.loading.mean_stress,
+          p.loading.motion};
 }
 
 Simulation::Progress unpack(const std::vector<double>& v) {
   Simulation::Progress p;
   p.steps = static_cast<std::int64_t>(v.at(0));
-  const std::array<double*, 26> fields = {&p.intact,         &p.broken_in_layout, &p.ledger.external_work,
-                                          &p.ledger.damage,  &p.ledger.friction,  &p.ledger.viscous,
-                                          &p.ledger.cundall, &p.virial.xx,        &p.virial.xy,
-                                          &p.virial.yx,      &p.virial.yy,        &p.row_sum.xx,
-                                          &p.row_sum.xy,     &p.row_sum.yx,       &p.row_sum.yy,
-                                          &p.row_steps,      &p.peak_stress,      &p.peak_strain,
-                                          &p.peak_frozen,    &p.largest_overlap,  &p.largest_asymmetry,
-                                          &p.bond_steps,     &p.cell.xx,          &p.cell.xy,
-                                          &p.cell.yy,        &p.travelled};
+  const std::array<double*, 34> fields = {&p.intact,
+                                          &p.broken_in_layout,
+                                          &p.ledger.external_work,
+                                          &p.ledger.damage,
+                                          &p.ledger.friction,
+                                          &p.ledger.viscous,
+                                          &p.ledger.cundall,
+                                          &p.virial.xx,
+                                          &p.virial.xy,
+                                          &p.virial.yx,
+                                          &p.virial.yy,
+                                          &p.row_sum.xx,
+                                          &p.row_sum.xy,
+                                          &p.row_sum.yx,
+                                          &p.row_sum.yy,
+                                          &p.row_weight,
+                                          &p.peak_stress,
+                                          &p.peak_strain,
+                                          &p.peak_frozen,
+                                          &p.largest_overlap,
+                                          &p.largest_asymmetry,
+                                          &p.bond_steps,
+                                          &p.cell.xx,
+                                          &p.cell.xy,
+                                          &p.cell.yy,
+                                          &p.travelled,
+                                          &p.peak_step,
+                                          &p.loading.segment,
+                                          &p.loading.step,
+                                          &p.loading.steps,
+                                          &p.loading.rate,
+                                          &p.loading.stress_sum,
+                                          &p.loading.mean_stress,
+                                          &p.loading.motion};
   for (std::size_t k = 0; k < fields.size(); ++k) *fields[k] = v.at(k + 1);
   return p;
 }

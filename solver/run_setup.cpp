@@ -20,6 +20,13 @@ void refuse_missing_simd(SimdChoice simd) {
 
 }  // namespace
 
+LoadedBlock loaded_block(const geometry::PerforationLayout& layout) {
+  LoadedBlock block{layout.width, layout.height, 0.0};
+  for (const geometry::Perforation& hole : layout.perforations)
+    block.largest_hole = std::max(block.largest_hole, hole.diameter);
+  return block;
+}
+
 RunSetup set_up_run(const RunRequest& request) {
   const SolverOptions& options = request.options;
   refuse_missing_simd(options.dynamics.simd);
@@ -34,8 +41,6 @@ RunSetup set_up_run(const RunRequest& request) {
   s.masses = make_masses(s.specimen.packing, s.network, options.material, options.dynamics);
   s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
                                1.0 - request.layout->solid_area_fraction(), request.mean_diameter);
-  s.rate = options.loading.rate > 0.0 ? options.loading.rate : s.loading.rate;
-  // The step is shortened so that a whole number of steps makes a row: rows then sit at exact strains.
   const double interval = options.output.history_interval;
   // The bound per disc is pessimistic by a factor of 1.4 for uniform_step; power iteration on the intact network gives
   // the step that counts, with step_factor as its margin. Rubble is held by contacts: their own limit, dashpots
@@ -45,8 +50,7 @@ RunSetup set_up_run(const RunRequest& request) {
       critical_step_by_power_iteration(s.network, s.masses, options.material, options.dynamics.cundall_damping));
   const double longest = std::min(options.dynamics.step_factor * s.critical_step,
                                   contact_critical_step(s.masses, options.material, options.dynamics.cundall_damping));
-  s.steps_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / (s.rate * longest))));
-  s.time_step = interval / (s.rate * static_cast<double>(s.steps_per_row));
+  s.plan = plan_loading(s.loading, options.loading, loaded_block(*request.layout), interval, longest);
   constexpr double rounding = 1e-9;
   s.rows = static_cast<std::int64_t>(std::ceil(options.loading.until / interval - rounding));
   return s;
@@ -57,9 +61,11 @@ RunEstimate estimate_run(const RunRequest& request) {
   RunEstimate e;
   e.discs = request.clipped->size();
   e.bonds = setup.network.size();
-  e.steps = setup.rows * setup.steps_per_row;
-  e.time_step = setup.time_step;
-  e.rate = setup.rate;
+  const double until = static_cast<double>(setup.rows) * request.options.output.history_interval;
+  e.steps =
+      expected_steps(setup.plan, setup.loading, until, setup.loading.bulk_density / request.options.material.density);
+  e.time_step = setup.plan.time_step;
+  e.rate = until / (static_cast<double>(e.steps) * e.time_step);
   return e;
 }
 

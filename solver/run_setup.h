@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "solver/bond_network.h"
+#include "solver/loading_rate.h"
 #include "solver/mass.h"
 #include "solver/run.h"
 #include "solver/specimen.h"
@@ -17,12 +18,12 @@ struct RunSetup {
   BondNetwork network;
   MassProperties masses;
   LoadingEstimate loading;
-  double rate = 0.0;
+  LoadingPlan plan;
   double critical_step = 0.0;
-  double time_step = 0.0;
-  std::int64_t steps_per_row = 0;
   std::int64_t rows = 0;
 };
+
+LoadedBlock loaded_block(const geometry::PerforationLayout& layout);
 
 /// Bonds the request's packing and chooses rate and step (docs/theory.md, "Motion"). Throws io::InputError when nothing
 /// is bonded.

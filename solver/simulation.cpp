@@ -75,6 +75,7 @@ ContactLaw make_contact_law(const MaterialOptions& material) {
 Simulation::Simulation(SimulationInput input)
     : options_(std::move(input.options)),
       cell_(input.cell),
+      loading_(input.loading),
       block_(input.block),
       now_(input.cell.start),
       before_(input.cell.start),
@@ -160,12 +161,41 @@ void Simulation::keep_near_pairs() {
   progress_.travelled = 0.0;
 }
 
-void Simulation::step() {
+void Simulation::move_cell() {
   before_ = now_;
-  ++progress_.steps;
   const Virial s = stress();
+  LoadingState& path = progress_.loading;
+  const bool driven = loading_.segment_strain > 0.0;
+  if (driven && path.steps == 0.0) {
+    const double motion = kinetic_energy_at_half_step() + progress_.ledger.cundall + progress_.ledger.viscous;
+    begin_segment(loading_, measure_segment(loading_, motion, peak_frozen(), path), path);
+  }
+  ++progress_.steps;
   now_ = cell_.next(before_, {s.xx, 0.5 * (s.xy + s.yx), s.yy}, time(), time_step_);
+  if (driven) {
+    path.step += 1.0;
+    path.stress_sum += s.yy;
+    now_.yy = cell_.start.yy * (1.0 - path_strain(loading_, path));
+    if (path.step == path.steps) finish_segment(loading_, path);
+  }
   progress_.cell = now_;
+}
+
+double Simulation::kinetic_energy_at_half_step() const {
+  double sum = 0.0, mass = 0.0, px = 0.0, py = 0.0;
+  for (std::int32_t d = 0; d < discs_.size(); ++d) {
+    const std::size_t k = at(d);
+    const double m = discs_.mass[k], vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
+    sum += m * (vx * vx + vy * vy) + discs_.inertia[k] * w * w;
+    mass += m;
+    px += m * vx;
+    py += m * vy;
+  }
+  return 0.5 * (sum - (px * px + py * py) / mass);
+}
+
+void Simulation::step() {
+  move_cell();
   move_discs();
   keep_near_pairs();
   broken_.clear();
@@ -189,16 +219,19 @@ void Simulation::account(const StepSums& sums, const CellMatrix& before) {
   ledger.friction += sums.friction;
   ledger.viscous += sums.viscous;
   progress_.virial = sums.virial;
-  walls_.add_to_row(block());
+  // A row is a mean over strain: a step counts with the strain it makes.
+  const double weight = progress_.loading.rate > 0.0 ? progress_.loading.rate : 1.0;
+  walls_.add_to_row(block(), weight);
   const Virial s = stress();
-  progress_.row_sum.xx += s.xx;
-  progress_.row_sum.xy += s.xy;
-  progress_.row_sum.yx += s.yx;
-  progress_.row_sum.yy += s.yy;
-  progress_.row_steps += 1.0;
+  progress_.row_sum.xx += weight * s.xx;
+  progress_.row_sum.xy += weight * s.xy;
+  progress_.row_sum.yx += weight * s.yx;
+  progress_.row_sum.yy += weight * s.yy;
+  progress_.row_weight += weight;
   if (!peak_frozen() && s.yy > progress_.peak_stress) {
     progress_.peak_stress = s.yy;
     progress_.peak_strain = strain();
+    progress_.peak_step = static_cast<double>(progress_.steps);
   }
   progress_.largest_overlap = std::max(progress_.largest_overlap, sums.largest_overlap);
   progress_.largest_asymmetry = std::max(progress_.largest_asymmetry, std::fabs(s.xy - s.yx));
@@ -250,8 +283,8 @@ Virial Simulation::stress() const {
 }
 
 Virial Simulation::row_stress() const {
-  if (progress_.row_steps == 0.0) return stress();
-  const double inverse = 1.0 / progress_.row_steps;
+  if (progress_.row_weight == 0.0) return stress();
+  const double inverse = 1.0 / progress_.row_weight;
   const Virial& v = progress_.row_sum;
   return {v.xx * inverse, v.xy * inverse, v.yx * inverse, v.yy * inverse};
 }
@@ -259,7 +292,7 @@ Virial Simulation::row_stress() const {
 void Simulation::reset_row() {
   walls_.reset_row();
   progress_.row_sum = {};
-  progress_.row_steps = 0.0;
+  progress_.row_weight = 0.0;
 }
 
 Ledger Simulation::ledger() const {

@@ -10,6 +10,7 @@
 #include "solver/cell.h"
 #include "solver/integrator.h"
 #include "solver/kernels.h"
+#include "solver/loading_rate.h"
 #include "solver/mass.h"
 #include "solver/options.h"
 #include "solver/response.h"
@@ -36,6 +37,7 @@ struct SimulationInput {
   std::vector<WallPlace> walls;  ///< platens and side walls
   double time_step = 0.0;        ///< s
   double mean_diameter = 0.0;    ///< m, sets the Verlet skin
+  LoadingPlan loading;           ///< moves the height where it has segments; else the cell moves by itself
   int threads = 1;
 };
 
@@ -59,7 +61,7 @@ class Simulation {
   const Walls& walls() const { return walls_; }
   /// Stress at this step: sum F_j,a r_b, walls included, over the area of the block, Pa, compression positive.
   Virial stress() const;
-  /// Mean stress since the last call of reset_row(), Pa.
+  /// Mean stress over the strain (over time where no path drives the cell) since the last call of reset_row(), Pa.
   Virial row_stress() const;
   void reset_row();
   /// All energies now; the kinetic one and the last half kick's damping use the velocity at the full step.
@@ -69,6 +71,12 @@ class Simulation {
   /// Largest |sigma_yy| history: tracked every step until freeze_peak().
   double peak_stress() const { return progress_.peak_stress; }
   double peak_strain() const { return progress_.peak_strain; }
+  double peak_time() const { return progress_.peak_step * time_step_; }
+  /// Where the run is on its strain path; `steps` = 0 between two segments.
+  const LoadingState& loading() const { return progress_.loading; }
+  /// Kinetic energy of the fluctuating velocity at the half step, less that of the drift of all discs together (which
+  /// loads nothing), J per metre of depth.
+  double kinetic_energy_at_half_step() const;
   bool peak_frozen() const { return progress_.peak_frozen != 0.0; }
   void freeze_peak() { progress_.peak_frozen = 1.0; }
   double largest_overlap() const { return progress_.largest_overlap; }
@@ -97,12 +105,14 @@ class Simulation {
     double broken_in_layout = 0.0;
     Ledger ledger;  ///< work and dissipation only
     Virial virial, row_sum;
-    double row_steps = 0.0;
+    double row_weight = 0.0;
     double peak_stress = 0.0, peak_strain = 0.0, peak_frozen = 0.0;
     double largest_overlap = 0.0, largest_asymmetry = 0.0;
     double bond_steps = 0.0;
     CellMatrix cell;         ///< H
     double travelled = 0.0;  ///< no disc has moved farther than this since the near pairs were listed, m
+    double peak_step = 0.0;  ///< steps at the peak
+    LoadingState loading;
   };
 
   /// For checkpoint.cpp: everything that changes during a run.
@@ -120,6 +130,7 @@ class Simulation {
   void restore(Snapshot snapshot);
 
  private:
+  void move_cell();
   void move_discs();
   void keep_near_pairs();
   void account(const StepSums& sums, const CellMatrix& before);
@@ -128,6 +139,7 @@ class Simulation {
 
   SolverOptions options_;
   Cell cell_;
+  LoadingPlan loading_;
   BlockFrame block_;
   CellMatrix now_, before_;
   double time_step_;

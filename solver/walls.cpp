@@ -133,23 +133,23 @@ double Walls::elastic_energy(const DiscState& discs, const CellMatrix& cell) con
   return energy;
 }
 
-void Walls::add_to_row(const CellMatrix& edges) {
+void Walls::add_to_row(const CellMatrix& edges, double weight) {
   if (empty()) return;
   for (std::size_t w = 0; w < places_.size(); ++w) {
     const bool y = across(places_[w].side);
     pressure_[w] = inward(places_[w].side) * force_[w][y ? 1 : 0] / (y ? edges.xx : edges.yy);
-    row_sum_[w] += pressure_[w];
+    row_sum_[w] += weight * pressure_[w];
   }
-  row_steps_ += 1.0;
+  row_weight_ += weight;
 }
 
 void Walls::reset_row() {
   row_sum_ = {};
-  row_steps_ = 0.0;
+  row_weight_ = 0.0;
 }
 
 double Walls::row_pressure(std::size_t w) const {
-  return row_steps_ > 0.0 ? row_sum_[w] / row_steps_ : pressure_[w];
+  return row_weight_ > 0.0 ? row_sum_[w] / row_weight_ : pressure_[w];
 }
 
 Walls::Snapshot Walls::snapshot() const {
@@ -162,7 +162,7 @@ Walls::Snapshot Walls::snapshot() const {
   }
   s.row.insert(s.row.end(), pressure_.begin(), pressure_.end());
   s.row.insert(s.row.end(), row_sum_.begin(), row_sum_.end());
-  s.row.push_back(row_steps_);
+  s.row.push_back(row_weight_);
   return s;
 }
 
@@ -178,7 +178,7 @@ void Walls::restore(const Snapshot& s) {
     pressure_[w] = s.row.at(w);
     row_sum_[w] = s.row.at(pressure_.size() + w);
   }
-  row_steps_ = s.row.at(2 * pressure_.size());
+  row_weight_ = s.row.at(2 * pressure_.size());
 }
 
 }  // namespace perfora::solver

@@ -33,8 +33,9 @@ class Walls {
   /// Energy of the walls' springs, J/m.
   double elastic_energy(const DiscState& discs, const CellMatrix& cell) const;
 
-  /// Pressure on each wall: force along its normal over the block's nominal edge; adds the last step to the row.
-  void add_to_row(const CellMatrix& edges);
+  /// Pressure on each wall: force along its normal over the block's nominal edge; adds the last step to the row, with
+  /// this weight.
+  void add_to_row(const CellMatrix& edges, double weight);
   void reset_row();
   /// Mean pressure since reset_row(), Pa, compression positive; the last step's where the row is empty.
   double row_pressure(std::size_t w) const;
@@ -43,7 +44,7 @@ class Walls {
   struct Snapshot {
     std::vector<double> touch, shear, viscous_force;
     std::vector<std::uint8_t> bedded;
-    std::vector<double> row;  ///< pressures now, their sums in the row, steps in the row
+    std::vector<double> row;  ///< pressures now, their sums in the row, their weights
   };
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
@@ -73,7 +74,7 @@ class Walls {
   std::vector<ChunkSums> chunk_sums_;
   std::array<std::array<double, 2>, 4> force_ = {};
   std::array<double, 4> pressure_ = {}, row_sum_ = {};
-  double row_steps_ = 0.0;
+  double row_weight_ = 0.0;
 };
 
 }  // namespace perfora::solver

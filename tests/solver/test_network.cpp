@@ -133,7 +133,7 @@ TEST(NearPairs, CompleteUntilOutdated) {
   }
 }
 
-// uniform_step keeps the total mass and gives every disc the same bound; physical masses are rho pi R^2 and m R^2/2.
+// uniform_step keeps the total mass and lengthens the step in bonds and in contacts; physical masses are rho pi R^2 and m R^2/2.
 TEST(Masses, UniformStepKeepsTheTotal) {
   const geometry::Packing p = test::jittered_packing(10, 0.5e-3, 2);
   MaterialOptions material;
@@ -151,6 +151,7 @@ TEST(Masses, UniformStepKeepsTheTotal) {
   EXPECT_DOUBLE_EQ(physical.mass[3], 2200.0 * std::numbers::pi * p.radius[3] * p.radius[3]);
   EXPECT_DOUBLE_EQ(physical.inertia[3], 0.5 * physical.mass[3] * p.radius[3] * p.radius[3]);
   EXPECT_GT(uniform.critical_step, 1.2 * physical.critical_step);
+  EXPECT_GT(contact_critical_step(uniform, material, 0.7), 1.2 * contact_critical_step(physical, material, 0.7));
   // The bound holds: the true critical step, by power iteration, is never shorter.
   EXPECT_GE(critical_step_by_power_iteration(net, uniform, material, 0.7, 400), uniform.critical_step);
   EXPECT_GE(critical_step_by_power_iteration(net, physical, material, 0.7, 400), physical.critical_step);

@@ -1,0 +1,209 @@
+// What is here: the controlled loading rate: bounds and directions of the controller, exact strains of rows, the same
+// bits for threads and restarts. Expected values: closed forms and properties of docs/theory.md, "Loading rate".
+#include "solver/loading_rate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/solver/sample_packings.h"
+
+namespace perfora::solver {
+namespace {
+
+constexpr double row = 5e-4;           // strain
+constexpr double longest_step = 1e-6;  // s
+
+/// A block of 2 x 2 holes of 20 mm in 50 x 50 mm, in round numbers.
+LoadingEstimate round_estimate(double transits = 25.0) {
+  LoadingEstimate e;
+  e.modulus = 1e8;
+  e.bulk_density = 1000.0;
+  e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
+  e.peak_strain = 8e-3;
+  e.rate = e.peak_strain * e.wave_speed / (transits * 50e-3);
+  return e;
+}
+
+LoadingPlan adaptive(double transits = 25.0) {
+  LoadingOptions options;
+  options.transits = transits;
+  return plan_loading(round_estimate(transits), options, {50e-3, 50e-3, 20e-3}, row, longest_step);
+}
+
+TEST(LoadingPlan, GivenRateAndConstantControlAreOneRate) {
+  LoadingOptions options;
+  options.control = LoadingControl::constant;
+  for (const double given : {0.0, 3.0}) {
+    options.rate = given;
+    const LoadingPlan plan = plan_loading(round_estimate(), options, {50e-3, 50e-3, 20e-3}, row, longest_step);
+    const double wanted = given > 0.0 ? given : round_estimate().rate;
+    EXPECT_LE(plan.time_step, longest_step);
+    LoadingState state;
+    const SegmentMeasures violent{1e6, 1e9, true};
+    for (int k = 0; k < 5; ++k) {
+      begin_segment(plan, violent, state);
+      EXPECT_NEAR(state.rate, wanted, 1e-12 * wanted);  // rounding of a few products
+      state.step = state.steps;
+      finish_segment(plan, state);
+    }
+    EXPECT_EQ(path_strain(plan, state), 5 * row);
+    // n rows of ceil(row/(rate longest step)) steps.
+    EXPECT_EQ(expected_steps(plan, round_estimate(), 0.1, 0.36),
+              200 * static_cast<std::int64_t>(std::ceil(row / (wanted * longest_step))));
+  }
+}
+
+// Before the first peak: 25 transits of the block even where it comes at 0.7 of the estimated strain, and 100 crossings
+// of the widest hole.
+TEST(LoadingPlan, TransitsBeforeTheFirstPeak) {
+  const LoadingEstimate e = round_estimate();
+  const double rate = allowed_rate(adaptive(), {});
+  EXPECT_GE(0.7 * e.peak_strain / rate * e.wave_speed / 50e-3, 25.0 * (1.0 - 1e-12));
+  EXPECT_GE(e.peak_strain / rate * e.wave_speed / 20e-3, 100.0 * (1.0 - 1e-12));
+  EXPECT_NEAR(allowed_rate(adaptive(50.0), {}), 0.5 * rate, 1e-12 * rate);  // twice the transits, half of every rate
+  const SegmentMeasures rubble{0.0, 5e3, true};
+  EXPECT_NEAR(allowed_rate(adaptive(50.0), rubble), 0.5 * allowed_rate(adaptive(), rubble), 1e-12 * rate);
+}
+
+TEST(LoadingController, SlowsWithMotionAndSpeedsUpWithTheStressOfTheRubble) {
+  const LoadingPlan plan = adaptive();
+  for (const bool passed : {false, true})
+    for (const double stress : {0.0, 1e4, 1e6}) {
+      double last = allowed_rate(plan, {0.0, stress, passed});
+      const double at_rest = last;
+      for (double power = 1e-3; power < 1e9; power *= 2.0) {
+        const double rate = allowed_rate(plan, {power, stress, passed});
+        EXPECT_LE(rate, last);
+        last = rate;
+      }
+      EXPECT_LT(last, 0.5 * at_rest);
+      EXPECT_GT(last, 0.0);
+    }
+  double last = 0.0;
+  for (double stress = 0.0; stress < 1e8; stress = 2.0 * stress + 1e3) {
+    const double rate = allowed_rate(plan, {0.0, stress, true});
+    EXPECT_GE(rate, last);
+    EXPECT_LE(rate, plan.fastest_rate);
+    last = rate;
+  }
+  EXPECT_EQ(last, plan.fastest_rate);
+  // The stress before the first peak is no reason to hurry.
+  EXPECT_EQ(allowed_rate(plan, {0.0, 1e6, false}), allowed_rate(plan, {}));
+  // What the rubble bears while it carries nothing is one transit's share of the first peak: 1/25.
+  EXPECT_NEAR(allowed_rate(plan, {0.0, 0.0, true}) * plan.stress_per_rate,
+              round_estimate().modulus * round_estimate().peak_strain / 25.0, 1e-9 * 1e6);
+}
+
+// Whatever is measured: the rate changes by at most the stated factors (one step more or less of a segment aside), the
+// segments' strains add up exactly, and H goes down in every step.
+TEST(LoadingController, RandomMeasures) {
+  const LoadingPlan plan = adaptive();
+  test::Uniform u(7);
+  LoadingState state;
+  double last_strain = 0.0;
+  for (int k = 1; k <= 800; ++k) {
+    const double before = state.rate;
+    begin_segment(plan, {std::exp(u(-5.0, 20.0)), state.mean_stress, k > 200}, state);
+    EXPECT_EQ(state.steps, std::floor(state.steps));
+    EXPECT_NEAR(state.rate * state.steps * plan.time_step, plan.segment_strain, 1e-12 * plan.segment_strain);
+    if (before > 0.0) {
+      EXPECT_LE(state.rate, largest_speed_up * before * (1.0 + 1e-8));
+      EXPECT_GE(plan.segment_strain / ((state.steps - 1.0) * plan.time_step),
+                largest_slow_down * before * (1.0 - 1e-8));
+    }
+    for (int n = static_cast<int>(state.steps); n > 0; --n) {
+      state.step += 1.0;
+      state.stress_sum += u(0.0, 1e6);
+      EXPECT_GT(path_strain(plan, state), last_strain);
+      last_strain = path_strain(plan, state);
+    }
+    finish_segment(plan, state);
+    EXPECT_EQ(path_strain(plan, state), last_strain);
+    if (k % plan.segments_per_row == 0) {
+      EXPECT_EQ(last_strain, static_cast<double>(k / plan.segments_per_row) * row);
+    }
+  }
+}
+
+// From the slowest rate back to rest: log(8)/log(1.25) = 9.3 segments.
+TEST(LoadingController, ComesBackWithinTwoRows) {
+  const LoadingPlan plan = adaptive();
+  LoadingState state;
+  for (int k = 0; k < 8; ++k) begin_segment(plan, {1e9, 0.0, true}, state);
+  const double slow = state.rate;
+  for (int k = 0; k < 10; ++k) begin_segment(plan, {0.0, 0.0, true}, state);
+  EXPECT_GT(state.rate, 7.0 * slow);
+  EXPECT_NEAR(state.rate, plan.rubble_rate, 0.05 * plan.rubble_rate);  // whole steps: some twenty a segment
+}
+
+/// A small solid block on an adaptive path, fast enough to break within a thousand steps.
+Simulation driven(const geometry::Packing& packing, int threads) {
+  SolverOptions options;
+  SimulationInput input;
+  input.clipped = &packing;
+  input.network = make_bond_network(packing, test::no_holes(packing), options.material, options.noise, 1, 0.5e-3);
+  input.masses = make_masses(packing, input.network, options.material, options.dynamics);
+  const double step = options.dynamics.step_factor * input.masses.critical_step;
+  LoadingEstimate estimate =
+      estimate_loading(input.network, input.masses, options, packing.width, packing.height, 0.0, 0.5e-3);
+  options.loading.transits = 4.0;
+  estimate.rate = estimate.peak_strain * estimate.wave_speed / (options.loading.transits * packing.height);
+  input.loading = plan_loading(estimate, options.loading, {packing.width, packing.height, 0.0}, row, step);
+  input.time_step = input.loading.time_step;
+  input.cell.start = {packing.width, 0.0, packing.height};
+  input.options = options;
+  input.mean_diameter = 0.5e-3;
+  input.threads = threads;
+  return Simulation(std::move(input));
+}
+
+void steps(Simulation& s, std::int64_t until) {
+  while (s.steps() < until) {
+    s.step();
+    if (s.strain() > 0.02 && !s.peak_frozen()) s.freeze_peak();
+  }
+}
+
+TEST(DrivenSimulation, SameBitsForThreadsAndARestartInTheMiddleOfASegment) {
+  const geometry::Packing packing = test::jittered_packing(14, 0.5e-3, 3);
+  constexpr std::int64_t cut = 1000, end = 2500;
+  Simulation one = driven(packing, 1), two = driven(packing, 2), copied = driven(packing, 1);
+  steps(copied, cut);
+  while (copied.loading().step < 1.0) copied.step();
+  EXPECT_LT(copied.loading().step, copied.loading().steps);
+  Simulation resumed = driven(packing, 2);
+  resumed.restore(copied.snapshot());
+  for (Simulation* s : {&one, &two, &resumed}) steps(*s, end);
+  EXPECT_GT(one.events().size(), 100u);
+  EXPECT_GT(one.loading().segment, 50.0);
+  for (const Simulation* s : {&two, &resumed}) {
+    EXPECT_EQ(s->discs().sx, one.discs().sx);
+    EXPECT_EQ(s->discs().vy, one.discs().vy);
+    EXPECT_EQ(s->strain(), one.strain());
+    EXPECT_EQ(s->loading().rate, one.loading().rate);
+    EXPECT_EQ(s->loading().mean_stress, one.loading().mean_stress);
+    EXPECT_EQ(s->ledger().external_work, one.ledger().external_work);
+  }
+  // Work is summed over the very path: the ledger closes as at a constant rate (test_dynamics.cpp).
+  EXPECT_NEAR(one.ledger().external_work, one.ledger().sum(), 0.01 * one.ledger().external_work);
+}
+
+// Energy thrown in slows the next segment; the same block left alone keeps its rate. A drift of all discs is no reason.
+TEST(DrivenSimulation, ThrownDiscsSlowTheNextSegment) {
+  const geometry::Packing packing = test::jittered_packing(14, 0.5e-3, 3);
+  Simulation still = driven(packing, 1), thrown = driven(packing, 1), drifting = driven(packing, 1);
+  test::Uniform u(5);
+  for (std::size_t d = 0; d < thrown.discs().vx.size(); ++d) {
+    thrown.discs().vx[d] = u(-1.0, 1.0);
+    drifting.discs().vx[d] = 1.0;
+  }
+  EXPECT_LT(drifting.kinetic_energy_at_half_step(), 1e-12 * thrown.kinetic_energy_at_half_step());
+  for (Simulation* s : {&still, &thrown, &drifting}) s->step();
+  EXPECT_LT(thrown.loading().rate, 0.6 * still.loading().rate);
+  EXPECT_EQ(drifting.loading().rate, still.loading().rate);
+}
+
+}  // namespace
+}  // namespace perfora::solver
