@@ -295,60 +295,6 @@ void Simulation::reset_row() {
   progress_.row_weight = 0.0;
 }
 
-Ledger Simulation::ledger() const {
-  backend_->collect(near_pairs_);
-  Ledger ledger = progress_.ledger;
-  ledger.elastic_contacts += walls_.elastic_energy(discs_, now_);
-  const double half = 0.5 * time_step_, c = options_.dynamics.cundall_damping;
-  for (std::int32_t d = 0; d < discs_.size(); ++d) {
-    const std::size_t k = at(d);
-    const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
-    const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
-                 torque = damped(discs_.torque[k], w, c);
-    const double nvx = vx + half * fx * inverse_mass_[k], nvy = vy + half * fy * inverse_mass_[k],
-                 nw = w + half * torque * inverse_inertia_[k];
-    ledger.cundall -=
-        0.5 * half *
-        ((fx - discs_.fx[k]) * (vx + nvx) + (fy - discs_.fy[k]) * (vy + nvy) + (torque - discs_.torque[k]) * (w + nw));
-    ledger.kinetic += 0.5 * (discs_.mass[k] * (nvx * nvx + nvy * nvy) + discs_.inertia[k] * nw * nw);
-  }
-  for (std::int64_t b = 0; b < network_.size(); ++b) {
-    const auto id = static_cast<std::size_t>(b);
-    if (network_.state[id] != BondState::intact) continue;
-    const std::int32_t i = network_.i[id], j = network_.j[id];
-    const BondKinematics k =
-        kinematics_of(discs_, i, j, now_, network_.direction_x[id], network_.direction_y[id], network_.rest_length[id]);
-    const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[id]);
-    ledger.elastic_bonds +=
-        bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
-  }
-  for (std::int32_t i = 0; i < discs_.size(); ++i)
-    for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
-      const NearSlot& slot = near_pairs_.slots()[at(k)];
-      if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b = kinematics_of(discs_, i, slot.neighbour, now_, 1.0, 0.0, 0.0);
-      const double overlap = std::max(0.0, slot.touch - b.length);
-      ledger.elastic_contacts += 0.5 * (contact_law_.normal_stiffness * overlap * overlap +
-                                        contact_law_.tangential_stiffness * slot.history.shear * slot.history.shear);
-    }
-  return ledger;
-}
-
-std::int64_t Simulation::contacts() const {
-  backend_->collect(near_pairs_);
-  std::int64_t count = 0;
-  for (std::int32_t i = 0; i < discs_.size(); ++i) {
-    if (near_pairs_.active(i) == 0) continue;
-    for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
-      const NearSlot& slot = near_pairs_.slots()[at(k)];
-      if (slot.bonded != 0 || slot.neighbour < i) continue;
-      const BondKinematics b = kinematics_of(discs_, i, slot.neighbour, now_, 1.0, 0.0, 0.0);
-      if (b.length < slot.touch) ++count;
-    }
-  }
-  return count;
-}
-
 std::pair<double, double> Simulation::position(std::int32_t disc) const {
   return block_.position(discs_.sx[at(disc)], discs_.sy[at(disc)], now_);
 }

@@ -130,6 +130,8 @@ class Simulation {
   void restore(Snapshot snapshot);
 
  private:
+  /// Between two centres now, m.
+  double distance(std::int32_t i, std::int32_t j) const;
   void move_cell();
   void move_discs();
   void keep_near_pairs();
