@@ -95,8 +95,8 @@ double frame_count(const solver::SolverOptions& options) {
 
 /// Bytes and seconds from rough figures a bond, a disc, a row, a frame.
 void estimate_resources(const Design& design, int threads, DesignEstimate& estimate) {
-  constexpr double program_bytes = 3.0e7, bytes_per_bond = 560.0, bytes_per_disc = 1200.0;
-  constexpr double nanoseconds_per_bond_step = 10.0;  // one thread, means over runs in which most bonds break
+  constexpr double program_bytes = 3.0e7, bytes_per_bond = 220.0, bytes_per_disc = 1200.0;
+  constexpr double nanoseconds_per_bond_step = 4.5;  // AVX-512, one thread; per bond of the intact block
   constexpr double file_bytes_per_bond = 30.0, file_bytes_per_disc = 200.0, file_bytes_per_row = 150.0;
   constexpr double frame_bytes_per_bond = 6.0, frame_bytes_per_disc = 30.0;
   const double discs = static_cast<double>(estimate.discs), bonds = static_cast<double>(estimate.bonds);

@@ -76,7 +76,7 @@ TEST(Conservation, MomentaWithContactsAndBreaks) {
       }
       const Momentum after = momentum(s);
       EXPECT_GT(s.events().size(), 20u);
-      EXPECT_GE(contacts, 3);
+      EXPECT_GE(contacts, 2);
       const double single = kernel == KernelChoice::openmp ? 1e-6 : 0.0;
       EXPECT_NEAR(after.px, before.px, (1e-12 + single) * before.scale_p);
       EXPECT_NEAR(after.py, before.py, (1e-12 + single) * before.scale_p);
@@ -165,11 +165,17 @@ void same_state(const Simulation& a, const Simulation& b, const Compare& note) {
   EXPECT_EQ(a.events().size(), b.events().size()) << note;
 }
 
-// The same bits for 1, 2 and 3 threads through elastic loading, breaks, contacts, rebuilds and compactions.
-TEST(Determinism, ThreadsDoNotChangeABit) {
+class EverySimd : public ::testing::TestWithParam<SimdChoice> {};
+
+INSTANTIATE_TEST_SUITE_P(, EverySimd, ::testing::ValuesIn(usable_simd()));
+
+// The same bits for 1, 2 and 3 threads through elastic loading, breaks, contacts, rebuilds and compactions, on every
+// instruction set. 400 discs make four chunks.
+TEST_P(EverySimd, ThreadsDoNotChangeABit) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const geometry::Packing packing = test::jittered_packing(14, 0.5e-3, seed);
+    const geometry::Packing packing = test::jittered_packing(20, 0.5e-3, seed);
     SolverOptions options;
+    options.dynamics.simd = GetParam();
     options.noise.kind = NoiseKind::perlin;
     options.noise.length = 2e-3;
     std::vector<Simulation> runs;
@@ -188,12 +194,14 @@ TEST(Determinism, ThreadsDoNotChangeABit) {
 
 // A snapshot restored into a fresh simulation goes on with the same bits, and taking it changes nothing; at random
 // moments, both kernels.
-TEST(Restart, SnapshotGoesOnWithTheSameBits) {
+TEST_P(EverySimd, SnapshotGoesOnWithTheSameBits) {
   for (const KernelChoice kernel : {KernelChoice::openmp, KernelChoice::reference})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      if (kernel == KernelChoice::reference && GetParam() != SimdChoice::portable) continue;  // once is enough
       const geometry::Packing packing = test::jittered_packing(12, 0.5e-3, seed);
       SolverOptions options;
       options.dynamics.kernel = kernel;
+      options.dynamics.simd = GetParam();
       Simulation straight = test::make_simulation(packing, options, 0.5e-3, 200.0);
       Simulation copied = test::make_simulation(packing, options, 0.5e-3, 200.0);
       test::Uniform u(seed);

@@ -1,7 +1,10 @@
 // What is here: whole crushing runs of a small perforated cell: the ledger, and that the first peak does not hang on
 // step, rate or mass scaling. What is not: closed forms of two discs (the other files of this folder).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <map>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,64 +35,73 @@ TEST_P(Ledger, ClosesOverCrushing) {
 }
 INSTANTIATE_TEST_SUITE_P(, Ledger, ::testing::Values(1, 2, 3));
 
-struct PeakCase {
-  int rows = 1;  ///< of Table 1's holes, as many columns
-  std::uint64_t seed = 1;
-};
-void PrintTo(const PeakCase& c, std::ostream* out) {
-  *out << c.rows << " x " << c.rows << " holes, seed " << c.seed;
+/// Largest stress up to 2.5 % strain, beyond the first peak of Table 1's cell (at 0.6 to 1.2 %).
+double peak_stress(const Block& block, const solver::SolverOptions& options) {
+  const solver::Response r = crush(block, options);
+  return *std::max_element(r.history.stress_yy.begin(), r.history.stress_yy.end());
 }
 
-/// What does not hold so far (docs/verification.md) went up to 7 %; more than this would be something else.
-constexpr double largest_known = 0.15;
-
-class FirstPeak : public ::testing::TestWithParam<PeakCase> {
+/// Cells of rows x rows of Table 1's holes. One-hole cells crack in an order that the last bit decides, so a single
+/// peak tells nothing: means of paired changes over seeds do.
+class FirstPeak : public ::testing::TestWithParam<int> {
  protected:
-  static std::string at() { return ", " + ::testing::PrintToString(GetParam()); }
-  /// Options for a run that ends behind the first peak of Table 1's cell (at 0.6 to 1.0 %).
+  static constexpr std::uint64_t seeds = 5;
   static solver::SolverOptions to_the_peak() {
     solver::SolverOptions options;
     options.loading.until = 0.025;
     options.output.history_interval = 1e-4;
     return options;
   }
-  /// First peak of this packing over that of the default options, less 1.
-  static double change(const solver::SolverOptions& options) {
-    const Block block = perforated(25e-3, GetParam().rows, GetParam().seed);
+  /// The peaks with `options` against those with the default: their mean change within 5 %, and within two of its
+  /// standard errors.
+  static void expect_the_same(const std::string& what, const solver::SolverOptions& options) {
     static std::map<std::pair<int, std::uint64_t>, double> defaults;
-    double& peak = defaults[{GetParam().rows, GetParam().seed}];
-    if (peak == 0.0) peak = crush(block, to_the_peak()).summary.first_peak_stress;
-    return crush(block, options).summary.first_peak_stress / peak - 1.0;
+    std::vector<double> changes;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      const Block block = perforated(25e-3, GetParam(), seed);
+      double& peak = defaults[{GetParam(), seed}];
+      if (peak == 0.0) peak = peak_stress(block, to_the_peak());
+      changes.push_back(peak_stress(block, options) / peak - 1.0);
+    }
+    double mean = 0.0, squares = 0.0;
+    for (const double c : changes) mean += c / static_cast<double>(seeds);
+    for (const double c : changes) squares += (c - mean) * (c - mean);
+    const double error = std::sqrt(squares / static_cast<double>(seeds * (seeds - 1)));
+    const std::string cell = fmt::format(", {0} x {0} holes", GetParam());
+    expect_at_most("mean change of the first peak " + what + cell, mean, 0.05);
+    record("its standard error" + cell, error, "for information", true);
+    if (!holds_so_far("mean change over its standard error" + cell, mean / error, 2.0))
+      GTEST_SKIP() << known_not_to_hold;
   }
 };
 
-// Halving the step, the rate, or taking physical masses moves the first peak of the same packing by less than 2 %: well
-// below the scatter between packings, so that a comparison of designs does not hang on them.
+// What a comparison of designs must not hang on.
 TEST_P(FirstPeak, DoesNotHangOnTheStep) {
   solver::SolverOptions options = to_the_peak();
   options.dynamics.step_factor *= 0.5;
-  expect_at_most("change of the first peak on half the step" + at(), change(options), 0.02);
+  expect_the_same("on half the step", options);
 }
 
 TEST_P(FirstPeak, DoesNotHangOnTheRate) {
   solver::SolverOptions options = to_the_peak();
   options.loading.transits *= 2.0;
-  const double found = change(options);
-  EXPECT_LT(std::fabs(found), largest_known) << "worse than what is known not to hold";
-  if (!holds_so_far("change of the first peak at half the rate" + at(), found, 0.02)) GTEST_SKIP() << known_not_to_hold;
+  expect_the_same("at half the rate", options);
 }
 
 TEST_P(FirstPeak, DoesNotHangOnMassScaling) {
   solver::SolverOptions options = to_the_peak();
   options.dynamics.mass = solver::MassScaling::physical;
-  const double found = change(options);
-  EXPECT_LT(std::fabs(found), largest_known) << "worse than what is known not to hold";
-  if (!holds_so_far("change of the first peak with physical masses" + at(), found, 0.02))
-    GTEST_SKIP() << known_not_to_hold;
+  expect_the_same("with physical masses", options);
 }
-INSTANTIATE_TEST_SUITE_P(, FirstPeak,
-                         ::testing::ValuesIn(thorough ? std::vector<PeakCase>{{1, 1}, {1, 2}, {1, 3}, {2, 1}}
-                                                      : std::vector<PeakCase>{{1, 1}}));
+
+// The vector kernels against the reference over whole runs: in single against in double precision.
+TEST_P(FirstPeak, DoesNotHangOnTheKernel) {
+  solver::SolverOptions options = to_the_peak();
+  options.dynamics.kernel = solver::KernelChoice::reference;
+  expect_the_same("in the reference kernel", options);
+}
+INSTANTIATE_TEST_SUITE_P(, FirstPeak, ::testing::ValuesIn(thorough ? std::vector<int>{1, 2} : std::vector<int>{1}),
+                         [](const auto& rows) { return fmt::format("{0}x{0}_holes", rows.param); });
 
 }  // namespace
 }  // namespace perfora::verification

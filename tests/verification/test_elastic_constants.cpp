@@ -32,9 +32,14 @@ TEST(ElasticConstants, AffineOnesAreVoigts) {
 }
 
 // Relaxed constants lie below Voigt's (they minimise the energy that Voigt's evaluates at one field), approach them
-// with H, and are isotropic: C11 = C22 and C66 = (C11 - C12)/2 within 3 %. One sample of 50 <d>.
+// with H, and are isotropic: C11 = C22 and C66 = (C11 - C12)/2 within 3 % in the mean of four samples of 50 <d> (at
+// H = 1.5, with five bonds a disc, one sample scatters by some 3 %).
 TEST(ElasticConstants, BelowVoigtAndIsotropic) {
-  const Block block = make_block(plain(50.0 * table1_diameter, 50.0 * table1_diameter), 1);
+  constexpr std::uint64_t samples = 4;
+  std::vector<Block> blocks;
+  for (std::uint64_t seed = 1; seed <= samples; ++seed)
+    blocks.push_back(make_block(plain(50.0 * table1_diameter, 50.0 * table1_diameter), seed));
+  const Block& block = blocks[0];
   double previous = 0.0;
   std::vector<std::vector<double>> table;
   for (const double horizon : {1.5, 2.0, 3.0, 4.0}) {
@@ -48,9 +53,14 @@ TEST(ElasticConstants, BelowVoigtAndIsotropic) {
     expect_between("C66 over Voigt's" + at, c[2][2] / v[2][2], 0.0, 1.0);
     expect_between("bulk modulus over Voigt's" + at,
                    (c[0][0] + c[1][1] + 2.0 * c[0][1]) / (v[0][0] + v[1][1] + 2.0 * v[0][1]), 0.0, 1.0);
-    expect_close("C22 over C11" + at, c[1][1] / c[0][0], 1.0, 0.03);
-    expect_close("2 C66/(C11 - C12), means of both axes" + at,
-                 2.0 * c[2][2] / (0.5 * (c[0][0] + c[1][1]) - 0.5 * (c[0][1] + c[1][0])), 1.0, 0.03);
+    double axes = 0.0, shear = 0.0;
+    for (const Block& sample : blocks) {
+      const solver::PlaneStiffness e = elastic(sample, material).stiffness;
+      axes += e[1][1] / e[0][0] / samples;
+      shear += 2.0 * e[2][2] / (0.5 * (e[0][0] + e[1][1]) - 0.5 * (e[0][1] + e[1][0])) / samples;
+    }
+    expect_close("C22 over C11, mean of four samples" + at, axes, 1.0, 0.03);
+    expect_close("2 C66/(C11 - C12), mean of four samples" + at, shear, 1.0, 0.03);
     expect_close("C21 over C12 (symmetry)" + at, c[1][0] / c[0][1], 1.0, 1e-6);
     table.push_back({horizon, share, c[2][2] / v[2][2], response.moduli.isotropic_poisson, 0.5 * (c[0][0] + c[1][1])});
     previous = share;
