@@ -85,7 +85,7 @@ def evaluate(build, design, settings, until, threads):
         start, before = time.time(), os.times()
         record = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
         after = os.times()
-    keys = ["discs", "bonds", "steps", "seconds", "steps_per_second", "ns_per_bond_step", "simd", "peak_memory",
+    keys = ["discs", "bonds_per_disc", "steps", "seconds", "steps_per_second", "ns_per_bond_step", "simd", "peak_memory",
             "first_peak_stress", "plateau_stress", "energy_residual"]
     row = {key: find(record, key) for key in keys}
     row["threads"] = threads
