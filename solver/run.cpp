@@ -100,10 +100,11 @@ class Run {
   }
 
  private:
-  /// What a resumed run must share with the run it goes on from: configuration, seeds and results version.
+  /// What a resumed run must share with the run it goes on from: configuration, seeds, results version and instruction
+  /// set.
   std::string identity() const {
-    return fmt::format("# results_version {}, seeds {}\n", request_.provenance.results_version,
-                       request_.provenance.seeds_json) +
+    return fmt::format("# results_version {}, seeds {}, kernel {}\n", request_.provenance.results_version,
+                       request_.provenance.seeds_json, simulation_->simd()) +
            request_.provenance.config_toml;
   }
 
@@ -159,7 +160,8 @@ class Run {
     const double now = seconds_since(started_);
     const bool out_of_time = request_.wall_time_limit > 0.0 && now > request_.wall_time_limit;
     const bool stopping = stop_requested() || out_of_time;
-    if (!std::isfinite(simulation_->stress().yy)) {  // never store what cannot be gone on with
+    // Never store what cannot be gone on with.
+    if (!std::isfinite(simulation_->stress().yy) || !std::isfinite(simulation_->kinetic_energy_at_half_step())) {
       response_.summary.status = RunStatus::failed;
       response_.summary.reason =
           fmt::format("unstable step: stress is not a number at strain {:.4f}", simulation_->strain());

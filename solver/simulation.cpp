@@ -29,13 +29,12 @@ double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& 
 }
 
 /// DiscState::position_shift: how often the cell may be halved so that a branch of `longest` (m) still fits into half
-/// of what is left, down to the shortest edge the run will reach.
-int record_shift(const CellMatrix& start, const SolverOptions& options, double longest_bond, double longest_contact) {
-  constexpr double least_strain = 0.6;  // other loadings than the run's (material tests) stay far below it
-  constexpr int finest = 6;             // 2^-38 of the cell: beyond it floats round more than the record does
-  const double left = 1.0 - std::max(least_strain, options.loading.until);
-  const double edge = std::min(start.xx, left * start.yy);
-  const double longest = std::max(longest_bond, longest_contact);
+/// of what is left, down to the shortest edge that any run may reach: resuming to a larger strain changes nothing.
+int record_shift(const CellMatrix& start, double longest_bond, double longest_contact) {
+  constexpr double stretched = 1.2;  // no bond bears more
+  constexpr int finest = 6;          // 2^-38 of the cell: beyond it floats round more than the record does
+  const double edge = std::min(start.xx, (1.0 - largest_run_strain) * start.yy);
+  const double longest = std::max(stretched * longest_bond, longest_contact);
   return std::clamp(static_cast<int>(std::floor(std::log2(0.5 * edge / longest))), 0, finest);
 }
 
@@ -102,7 +101,7 @@ Simulation::Simulation(SimulationInput input)
     inverse_mass_.push_back(1.0 / discs_.mass[d]);
     inverse_inertia_.push_back(1.0 / discs_.inertia[d]);
   }
-  discs_.position_shift = record_shift(now_, options_, 2.0 * input.mean_diameter * options_.material.horizon,
+  discs_.position_shift = record_shift(now_, input.mean_diameter * options_.material.horizon,
                                        2.0 * largest_radius + skin_share * input.mean_diameter);
   refresh_records();
   near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);

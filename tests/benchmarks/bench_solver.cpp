@@ -1,6 +1,6 @@
 // What is here: the parts of a step on the block of Table 1, each alone: bonds, contacts, near pairs, kick and drift.
 // Counters: ns per item (bond, touching pair, pair listed, disc) and bytes read and written per second as counted from
-// the layout. What is not: whole runs (whole_runs.py), packings (bench_packing.cpp).
+// the layout. What is not: whole runs (run_all.py), packings (bench_packing.cpp).
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -85,8 +85,8 @@ void per_item(benchmark::State& run, double items, double bytes) {
   run.SetBytesProcessed(static_cast<std::int64_t>(bytes) * run.iterations());
 }
 
-/// Bytes a bond end takes in the rows: direction, length, neighbour, threshold, rest of the length; and its disc's
-/// record.
+/// Bytes a bond end takes in the rows: direction, length, neighbour, threshold, rest of the length. Records come on
+/// top.
 constexpr double bytes_per_bond_end = 4 * 4 + 2 + 1;
 
 void bonds(benchmark::State& run, SimdChoice simd, int threads) {
@@ -143,7 +143,7 @@ void kick_drift(benchmark::State& run, int threads) {
     for (std::int32_t c = 0; c < chunks; ++c)
       benchmark::DoNotOptimize(kick_and_drift(task, c * chunk_discs, std::min(n, (c + 1) * chunk_discs)));
   }
-  constexpr double bytes_per_disc = 11 * 8 + 6 * 8 + 16;  // read, written, record
+  constexpr double bytes_per_disc = 12 * 8 + 6 * 8 + 2 * 16;  // read, written, record and motion
   per_item(run, static_cast<double>(n), bytes_per_disc * n);
 }
 
@@ -159,9 +159,12 @@ void register_all() {
   benchmark::RegisterBenchmark("bonds/reference", bonds_reference);
   for (const int threads : {1, 2}) {
     const std::string tail = "/threads:" + std::to_string(threads);
-    benchmark::RegisterBenchmark(("contacts" + tail).c_str(), [=](benchmark::State& run) { contacts(run, threads); });
-    benchmark::RegisterBenchmark(("kick_and_drift" + tail).c_str(),
-                                 [=](benchmark::State& run) { kick_drift(run, threads); });
+    benchmark::RegisterBenchmark(("contacts" + tail).c_str(), [=](benchmark::State& run) {
+      contacts(run, threads);
+    })->UseRealTime();
+    benchmark::RegisterBenchmark(("kick_and_drift" + tail).c_str(), [=](benchmark::State& run) {
+      kick_drift(run, threads);
+    })->UseRealTime();
   }
   benchmark::RegisterBenchmark("near_pairs/rebuild", near_pairs);
 }

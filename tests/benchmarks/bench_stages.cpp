@@ -1,6 +1,6 @@
 // What is here: one fast crushing of the block of Table 1 (or of a cell with fewer of its holes), timed over a fixed
 // number of steps at four stages: intact, at the first peak, half way, fully crushed. Prints one JSON object. What is
-// not: parts of a step (bench_solver.cpp), runs as users make them (whole_runs.py).
+// not: parts of a step (bench_solver.cpp), runs as users make them (run_all.py).
 // Usage: bench_stages [holes a side, 6] [threads, 2] [rate in 1/s, 6] [steps a stage, 2000] [horizon, 3]
 #include <fmt/format.h>
 
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     while (s.strain() < strain) s.step();
   };
   std::string stages;
-  for (const auto& [name, strain] : {std::pair{"intact", 0.0}, std::pair{"first peak", 0.007},
+  for (const auto& [name, strain] : {std::pair{"intact", 0.0}, std::pair{"first peak", 0.006},
                                      std::pair{"half way", 0.30}, std::pair{"crushed", 0.58}}) {
     go_to(strain);
     stages += (stages.empty() ? "\n  " : ",\n  ") + stage(s, name, steps);

@@ -122,7 +122,7 @@ def main():
     parts = {
         "parts": lambda: google_benchmark(bench / "bench_solver", "--benchmark_repetitions=5",
                                           "--benchmark_report_aggregates_only=true", "--benchmark_min_time=0.3"),
-        "packing": lambda: google_benchmark(bench / "bench_packing", "--benchmark_filter=(10000|30000|90000)"),
+        "packing": lambda: google_benchmark(bench / "bench_packing", "--benchmark_filter=:(10000|30000|90000)/"),
         "stages": lambda: [json.loads(subprocess.run([bench / "bench_stages", "2", str(threads)], check=True,
                                                      capture_output=True, text=True, env=environment()).stdout)
                            for threads in (1, 2)],
