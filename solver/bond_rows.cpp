@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace perfora::solver {
 namespace {
@@ -43,7 +42,7 @@ void BondRows::set_damage(std::int64_t slot, double damage, double threshold) {
 
 void BondRows::clear(std::int64_t slot, std::int32_t own) {
   *field(slot, e0x) = *field(slot, e0y) = *field(slot, l0) = 0.0f;
-  const auto offset = static_cast<std::int32_t>(static_cast<std::int64_t>(own) * std::int64_t{sizeof(DiscRecord)});
+  const std::int32_t offset = record_offset(own);
   std::memcpy(field(slot, neighbour_offset), &offset, sizeof offset);
   threshold_[at(slot)] = 0;
   rest_fraction_[at(slot)] = 0;
@@ -69,44 +68,15 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
   threshold_unit_ = 1.0 / (weakest * largest_stored);
   rest_fraction_unit_ = longest * half_last_place / largest_fraction;
 
-  const std::int32_t chunks = (discs + chunk_discs - 1) / chunk_discs;
-  slice_first_.assign(1, 0);
-  slice_disc_.clear();
-  chunk_first_.assign(1, 0);
-  std::vector<std::int32_t> order, slice_of(at(discs)), lane_of(at(discs));
-  for (std::int32_t chunk = 0; chunk < chunks; ++chunk) {
-    const std::int32_t begin = chunk * chunk_discs, end = std::min(discs, begin + chunk_discs);
-    order.resize(at(end - begin));
-    std::iota(order.begin(), order.end(), begin);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return degree[at(a)] > degree[at(b)]; });
-    for (std::size_t k = 0; k < order.size(); k += at(lanes_)) {
-      const auto slice = static_cast<std::int32_t>(slice_first_.size()) - 1;
-      for (std::size_t lane = 0; lane < at(lanes_); ++lane) {
-        const bool real = k + lane < order.size();
-        slice_disc_.push_back(real ? order[k + lane] : -1);
-        if (!real) continue;
-        slice_of[at(order[k + lane])] = slice;
-        lane_of[at(order[k + lane])] = static_cast<std::int32_t>(lane);
-      }
-      slice_first_.push_back(slice_first_.back() + degree[at(order[k])]);  // the longest row comes first
-    }
-    chunk_first_.push_back(static_cast<std::int32_t>(slice_first_.size()) - 1);
-  }
-
-  const auto groups = at(slice_first_.back()), slots = groups * at(lanes_);
+  rows_.build(degree);
+  const std::size_t groups = rows_.groups(), slots = groups * at(lanes_);
   groups_.resize(groups * group_bytes());
   threshold_.resize(slots);
   rest_fraction_.resize(slots);
   damage_.resize(slots);
   bond_.resize(slots);
   damaged_.assign(groups, 0);
-  for (std::int32_t slice = 0; slice + 1 < static_cast<std::int32_t>(slice_first_.size()); ++slice)
-    for (std::int32_t g = slice_first_[at(slice)]; g < slice_first_[at(slice) + 1]; ++g)
-      for (int lane = 0; lane < lanes_; ++lane) {
-        const std::int32_t* const disc = &slice_disc_[at(slice) * at(lanes_)];
-        clear(static_cast<std::int64_t>(g) * lanes_ + lane, disc[lane] >= 0 ? disc[lane] : disc[0]);
-      }
+  rows_.for_each_place([&](std::int64_t slot, std::int32_t disc) { clear(slot, disc); });
   // Bonds are sorted by (i, j), so filling in order sorts every row by neighbour.
   std::vector<std::int32_t> filled(at(discs), 0);
   for (std::int64_t b = 0; b < network.size(); ++b) {
@@ -114,9 +84,8 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
     for (const bool forward : {true, false}) {
       const std::int32_t own = forward ? network.i[at(b)] : network.j[at(b)];
       const std::int32_t other = forward ? network.j[at(b)] : network.i[at(b)];
-      const std::int64_t group = slice_first_[at(slice_of[at(own)])] + filled[at(own)]++;
+      const std::int64_t slot = rows_.place(own, filled[at(own)]++);
       if (network.state[at(b)] != BondState::intact) continue;  // keeps its empty place until the rows are compacted
-      const std::int64_t slot = group * lanes_ + lane_of[at(own)];
       const double sign = forward ? 1.0 : -1.0;
       *field(slot, e0x) = static_cast<float>(sign * network.direction_x[at(b)]);
       *field(slot, e0y) = static_cast<float>(sign * network.direction_y[at(b)]);
@@ -125,8 +94,7 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
       *field(slot, l0) = held;
       rest_fraction_[at(slot)] =
           static_cast<std::int8_t>(std::lround((rest - static_cast<double>(held)) / rest_fraction_unit_));
-      const auto offset =
-          static_cast<std::int32_t>(static_cast<std::int64_t>(other) * std::int64_t{sizeof(DiscRecord)});
+      const std::int32_t offset = record_offset(other);
       std::memcpy(field(slot, neighbour_offset), &offset, sizeof offset);
       bond_[at(slot)] = static_cast<std::int32_t>(b);
       const double damage = network.damage[at(b)];
@@ -141,10 +109,7 @@ void BondRows::aim(BondSweep& sweep, std::int32_t chunk) const {
   sweep.rest_fraction = rest_fraction_.data();
   sweep.damage = damage_.data();
   sweep.damaged = damaged_.data();
-  sweep.slice_first = slice_first_.data();
-  sweep.slice_disc = slice_disc_.data();
-  sweep.slice_begin = chunk_first_[at(chunk)];
-  sweep.slice_end = chunk_first_[at(chunk) + 1];
+  rows_.aim(sweep, chunk);
 }
 
 }  // namespace perfora::solver

@@ -1,38 +1,23 @@
-// What is here: the bonds of all discs as the vector kernels read them: sliced rows, one disc a lane (SELL-C-sigma:
-// Kreutzer et al., SIAM J. Sci. Comput. 36, 2014, with sigma = a chunk of discs). What is not: the loop over them
-// (bond_sweep.h), the law.
+// What is here: the bonds of all discs as the vector kernels read them, in sliced rows. What is not: the slicing
+// (sliced_rows.h), the loop over them (bond_sweep.h), the law.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <new>
 #include <vector>
 
 #include "solver/bond_network.h"
 #include "solver/laws.h"
+#include "solver/sliced_rows.h"
 #include "solver/vector_kernels.h"
 
 namespace perfora::solver {
-
-/// Memory that starts on a cache line.
-template <class T>
-struct CacheLineAllocator {
-  using value_type = T;
-  static constexpr std::align_val_t alignment{64};
-  CacheLineAllocator() = default;
-  template <class U>
-  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT: allocators convert
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
-  bool operator==(const CacheLineAllocator&) const { return true; }
-};
 
 /// Every bond stands in the rows of both its discs ("full list"), as seen from there. The `lanes` discs of a slice have
 /// about equally many bonds: within a chunk, discs are sorted by their number of bonds. Rows are sorted by neighbour,
 /// so that forces are summed in an order that depends on nothing else.
 class BondRows {
  public:
-  explicit BondRows(int lanes) : lanes_(lanes) {}
+  explicit BondRows(int lanes) : lanes_(lanes), rows_(lanes) {}
 
   /// Lays the rows out anew, rest lengths in `unit` m. Bonds that are `compacted` are left out, `broken` ones keep an
   /// empty place.
@@ -61,6 +46,7 @@ class BondRows {
   std::uint16_t stored(double threshold) const;
 
   int lanes_;
+  SlicedRows rows_;
   double threshold_unit_ = 1.0, rest_fraction_unit_ = 0.0;
   std::vector<char, CacheLineAllocator<char>> groups_;
   std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> threshold_;
@@ -68,7 +54,6 @@ class BondRows {
   std::vector<float, CacheLineAllocator<float>> damage_;
   std::vector<std::uint8_t> damaged_;  // per group
   std::vector<std::int32_t> bond_;     // id, -1: empty
-  std::vector<std::int32_t> slice_first_, slice_disc_, chunk_first_;
 };
 
 }  // namespace perfora::solver

@@ -1,12 +1,13 @@
-// What is here: the near pairs of all discs as the vector kernels read them: sliced rows like those of bonds
-// (bond_rows.h), with the contacts' history. What is not: which pairs are near (near_pairs.h).
+// What is here: the near pairs of all discs as the vector kernels read them, in sliced rows with the contacts' history.
+// What is not: the slicing (sliced_rows.h), which pairs are near (near_pairs.h).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "solver/bond_rows.h"
 #include "solver/near_pairs.h"
+#include "solver/sliced_rows.h"
+#include "solver/vector_kernels.h"
 
 namespace perfora::solver {
 
@@ -14,7 +15,7 @@ namespace perfora::solver {
 /// breaks. The order is that of the near pairs and does not depend on when the rows were laid out.
 class ContactRows {
  public:
-  explicit ContactRows(int lanes) : lanes_(lanes) {}
+  explicit ContactRows(int lanes) : lanes_(lanes), rows_(lanes) {}
 
   void build(const NearPairs& pairs, const DiscState& discs, const ContactLaw& law);
   /// Histories and touching distances back into the near pairs.
@@ -30,12 +31,12 @@ class ContactRows {
   using Aligned = std::vector<T, CacheLineAllocator<T>>;
 
   int lanes_;
+  SlicedRows rows_;
   Aligned<std::int32_t> neighbour_;
   Aligned<float> touch_, damping_, shear_, viscous_force_;
-  std::vector<std::int32_t> place_, slice_of_;            // of each near pair; of each disc
-  std::vector<std::uint8_t> active_;                      // per group: some place is filled
-  std::vector<std::int32_t> slice_first_, slice_active_;  // per slice: its first group; groups with a filled place
-  std::vector<std::int32_t> slice_disc_, chunk_first_;
+  std::vector<std::int32_t> place_;         // of each near pair
+  std::vector<std::uint8_t> active_;        // per group: some place is filled
+  std::vector<std::int32_t> slice_active_;  // per slice: groups with a filled place
 };
 
 }  // namespace perfora::solver

@@ -24,8 +24,7 @@ struct ChunkTask {
   BondRows* rows;
   ContactRows* contact_rows;
   ForceStep* step;
-  std::int32_t begin, end;  ///< discs
-  std::int32_t* broken;     ///< room for the bonds whose lower disc is in this chunk
+  std::int32_t* broken;  ///< room for the bonds whose lower disc is in this chunk
   std::int32_t broken_count;
   StepSums sums;
   BondSweep sweep;
@@ -114,9 +113,7 @@ class OpenmpBackend final : public ForceBackend {
       task.contact = &contact_;
       task.rows = &rows_;
       task.contact_rows = &contact_rows_;
-      task.begin = c * chunk_discs;
-      task.end = std::min(n, task.begin + chunk_discs);
-      task.broken = broken_.data() + lower[at(task.begin)];
+      task.broken = broken_.data() + lower[at(c * chunk_discs)];
       rows_.aim(task.sweep, c);
       task.sweep.twice_alpha = bond_.twice_alpha;
       task.sweep.context = &task;

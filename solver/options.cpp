@@ -73,8 +73,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Strain rate dH/dt/H0, constant; 0: from control and transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),
             "Wave transits of the block before the first peak, from its estimated modulus and peak strain: the higher, "
-            "the "
-            "slower everything goes.");
+            "the slower everything goes.");
   DynamicsOptions& dynamics = options.dynamics;
   schema.section("dynamics", "Integration and damping.")
       .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
@@ -91,7 +90,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
                {"avx512", SimdChoice::avx512},
                {"avx2", SimdChoice::avx2},
                {"portable", SimdChoice::portable}},
-              "Instruction set of the bond kernel; auto: the best this machine has. Equal bits hold on one of them.");
+              "Instruction set of the vector kernels; auto: the best this machine has. Equal bits hold on one of them.");
   BoundaryOptions& boundary = options.boundary;
   schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
       .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},

@@ -66,7 +66,7 @@ struct DynamicsOptions {
   MassScaling mass = MassScaling::uniform_step;
   double step_factor = 0.6;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;
-  SimdChoice simd = SimdChoice::automatic;  ///< of the bond kernel
+  SimdChoice simd = SimdChoice::automatic;  ///< of the vector kernels
 };
 
 /// [boundary]: what stands at the edges of the block.

@@ -10,7 +10,7 @@
 namespace perfora::benchmarks {
 
 /// The block of Table 1 with its 36 holes (some 36,600 discs), or a square of fewer or more of them. The packing is
-/// quenched at its solid fraction, which is quicker than the designs' way over the jammed state and as good for timing.
+/// quenched at its solid fraction, which is as good for timing as the designs' way over the jammed state.
 struct Block {
   geometry::Packing packing;
   geometry::PerforationLayout layout;

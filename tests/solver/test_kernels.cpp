@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, EverySimd, ::testing::ValuesIn(usable_simd())
 
 // One bond, of any direction, length, turn and damage, in any place of the cell of Table 1: each force within 1e-4 of
 // the critical stretch. Half a unit in the last place of 1.5 mm is 7e-11 m, 4.6e-5 of the critical stretch, and the
-// kernel rounds its way to the stretch four times: once whole, twice half (bond_sweep.h).
+// kernel rounds several times on its way to the stretch (bond_sweep.h); what one float loses of l0 is kept apart.
 TEST_P(EverySimd, OneBondIsWithinATenThousandthOfTheCriticalStretch) {
   test::Uniform u(77);
   double worst = 0.0;
