@@ -1,5 +1,5 @@
-// What is here: `perfora check`: what a design, a study or a calibration would run, without placing a disc. What is
-// not: the estimates (optimize/estimate.h).
+// What is here: `perfora check`: what a design, a study, a sweep or a calibration would run, without placing a disc.
+// What is not: the estimates (optimize/estimate.h).
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,6 +10,7 @@
 #include "optimize/calibration.h"
 #include "optimize/estimate.h"
 #include "optimize/study.h"
+#include "optimize/sweep.h"
 
 namespace perfora::app {
 
@@ -73,7 +74,7 @@ json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
           {"threads", threads}};
 }
 
-int report(const CheckFlags& flags, const char* kind, const json& study, const std::string& study_text,
+int report(const CheckFlags& flags, const char* kind, const json& plan, const std::string& plan_text,
            const optimize::DesignFile& design, std::vector<std::string> warnings) {
   const int threads = flags.common.thread_count();
   const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
@@ -81,11 +82,11 @@ int report(const CheckFlags& flags, const char* kind, const json& study, const s
   if (flags.common.json) {
     json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
     object.update(estimate_json(estimate, threads));
-    if (!study.is_null()) object["study"] = study;
+    if (!plan.is_null()) object[kind] = plan;
     object["warnings"] = warnings;
     print_json(object);
   } else {
-    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads) + study_text);
+    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads) + plan_text);
   }
   log_warnings(warnings);
   return exit_ok;
@@ -121,6 +122,25 @@ int check_study_file(const CheckFlags& flags) {
   return report(flags, "study", object, text, *study.start, study.warnings);
 }
 
+int check_sweep(const CheckFlags& flags) {
+  const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides());
+  json cases = json::array();
+  std::string text = "Sweep\n";
+  double seconds = 0.0;
+  for (const optimize::SweepCase& one : sweep.cases) {
+    cases.push_back({{"case", one.number}, {"label", one.label}, {"problem", one.problem}});
+    text += line(fmt::format("case {}", one.number), one.label + (one.problem.empty() ? "" : " (cannot be run)"));
+    if (!one.problem.empty()) continue;
+    const auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
+    seconds += optimize::estimate_design(design, 1).seconds * sweep.keys.replicates;
+  }
+  seconds /= sweep.workers(0);
+  text += line("simulations", with_thousands(static_cast<double>(sweep.runs())));
+  text += line(fmt::format("time with {} at once, roughly", sweep.workers(0)), duration_text(seconds));
+  const json object = {{"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}};
+  return report(flags, "sweep", object, text, *sweep.start, sweep.warnings);
+}
+
 int check_calibration(const CheckFlags& flags) {
   const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
   const optimize::DesignFile sample = optimize::material_sample(*calibration.start);
@@ -154,12 +174,13 @@ int check_calibration(const CheckFlags& flags) {
 void add_check(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<CheckFlags>();
   CLI::App* command =
-      program.add_subcommand("check", "Say what a design, study or calibration would run, without running it");
-  command->add_option("FILE", flags->file, "Design, study or calibration file (TOML)")->required();
+      program.add_subcommand("check", "Say what a design, study, sweep or calibration would run, without running it");
+  command->add_option("FILE", flags->file, "Design, study, sweep or calibration file (TOML)")->required();
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
     exit_code = has_section(flags->file, "study")       ? check_study_file(*flags)
+                : has_section(flags->file, "sweep")     ? check_sweep(*flags)
                 : has_section(flags->file, "calibrate") ? check_calibration(*flags)
                                                         : check_design(*flags);
   });

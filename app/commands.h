@@ -12,13 +12,14 @@ void add_pack(CLI::App& program, int& exit_code);
 void add_evaluate(CLI::App& program, int& exit_code);
 void add_test(CLI::App& program, int& exit_code);
 void add_optimize(CLI::App& program, int& exit_code);
+void add_sweep(CLI::App& program, int& exit_code);
 void add_calibrate(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_show(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
 /// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
 void add_worker(CLI::App& program, int& exit_code);
-/// Hidden: the keys of design and study files as Markdown (docs/design-files.md).
+/// Hidden: the keys of design, study, sweep and calibration files as Markdown (docs/design-files.md).
 void add_reference(CLI::App& program, int& exit_code);
 
 }  // namespace perfora::app

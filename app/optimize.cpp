@@ -9,6 +9,7 @@
 #include "app/common.h"
 #include "app/outputs.h"
 #include "app/summary_text.h"
+#include "app/workers.h"
 #include "geometry/layout.h"
 #include "io/hdf5.h"
 #include "optimize/evaluation.h"
@@ -32,26 +33,14 @@ struct OptimizeFlags {
   int workers = 0;
 };
 
-constexpr int most_workers = 4096;
-
-optimize::StudyRunOptions run_options(const OptimizeFlags& flags, const optimize::Study& study) {
-  optimize::StudyRunOptions options;
+optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::Study& study) {
+  optimize::WorkOptions options;
   options.folder = output_or_default(flags.output, default_name(flags.study, "-result"));
   options.resume = flags.resume;
   options.force = flags.common.force;
   options.command_line = command_line();
   options.stop_requested = [] { return solver::stop_requested(); };
-  const int workers = optimize::useful_workers(study, flags.workers);
-  const int threads = std::max(1, flags.common.thread_count() / workers);
-  options.make_executor = [workers, threads] {
-    optimize::ChildOptions children;
-    children.command = {fs::read_symlink("/proc/self/exe").string(), "worker", "--quiet", "--threads",
-                        std::to_string(threads)};
-    children.workers = workers;
-    io::log_info(
-        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", threads, threads == 1 ? "" : "s"));
-    return optimize::make_child_executor(std::move(children));
-  };
+  options.make_executor = worker_executor(optimize::useful_workers(study, flags.workers), flags.common.thread_count());
   return options;
 }
 
@@ -213,7 +202,7 @@ int optimize_study(const OptimizeFlags& flags) {
   if (flags.resume && flags.common.force)
     throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
   optimize::Study study = optimize::read_study(flags.study, flags.common.overrides());
-  const optimize::StudyRunOptions options = run_options(flags, study);
+  const optimize::WorkOptions options = run_options(flags, study);
   optimize::StudyRun run(std::move(study), options);
   announce(run.study());
   run.run();
@@ -243,11 +232,7 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Go on with a study that was stopped or killed");
-  command
-      ->add_option("--workers", flags->workers,
-                   "Evaluations at once, each in a process of its own (default: as the study says, or one a core)")
-      ->check(CLI::Range(1, most_workers))
-      ->type_name("W");
+  add_workers_flag(*command, flags->workers, "study");
   command->add_flag("--no-run-file", flags->no_run_file,
                     "Do not run the best design once more for best.h5 and best.png");
   add_common_flags(*command, flags->common);

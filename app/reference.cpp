@@ -1,20 +1,21 @@
-// What is here: `perfora reference` (hidden): every key of design, study and calibration files as Markdown, from the
-// table of keys that reads them. What is not: the text around it (docs/design-files.md).
+// What is here: `perfora reference` (hidden): every key of design, study, sweep and calibration files as Markdown, from
+// the table of keys that reads them. What is not: the text around it (docs/design-files.md).
 #include "app/commands.h"
 #include "app/common.h"
 #include "optimize/calibration.h"
 #include "optimize/design.h"
 #include "optimize/study.h"
+#include "optimize/sweep.h"
 
 namespace perfora::app {
 
 void add_reference(CLI::App& program, int& exit_code) {
   CLI::App* command =
-      program.add_subcommand("reference", "Print every key of design, study and calibration files")->group("");
+      program.add_subcommand("reference", "Print every key of design, study, sweep and calibration files")->group("");
   command->callback([&exit_code] {
     print_text("# Keys of a design file\n\n" + optimize::DesignFile().schema().reference() +
-               "\n# Keys of a study file\n\n" + optimize::study_reference() + "\n# Keys of a calibration file\n\n" +
-               optimize::calibration_reference());
+               "\n# Keys of a study file\n\n" + optimize::study_reference() + "\n# Keys of a sweep file\n\n" +
+               optimize::sweep_reference() + "\n# Keys of a calibration file\n\n" + optimize::calibration_reference());
     exit_code = exit_ok;
   });
 }

@@ -45,6 +45,8 @@ constexpr Line curve_lines[] = {
     {"densification strain", "densification_strain", Unit::percent},
     {"strain of largest efficiency", "efficiency_strain", Unit::percent},
     {"stress only rises from strain", "only_rising_strain", Unit::percent},
+    {"half the first peak again at strain", "recovery_strain", Unit::percent},
+    {"peaks behind the first", "intermediate_peaks", Unit::count},
     {"energy absorbed to window end", "energy_absorbed", Unit::energy_density},
     {"share of Cundall damping in the work", "cundall_share", Unit::percent},
 };
@@ -354,6 +356,7 @@ std::string summary_text(const json& object) {
   const std::string schema = object.value("schema", "");
   std::string text = head_text(object);
   if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
+  if (schema == "perfora.sweep/1") return text + performance_text(object);
   if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
   if (schema == "perfora.calibrate/1") return text + calibrate_text(object) + performance_text(object);
   if (schema == "perfora.test/1") return text + material_text(object.at("material")) + performance_text(object);

@@ -169,4 +169,11 @@ CsvTable parse_csv(std::string_view text, const std::string& name, const std::ve
   return table;
 }
 
+std::string csv_quoted(std::string_view text) {
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
 }  // namespace perfora::io

@@ -1,5 +1,5 @@
-// What is here: reading a table of numbers with named columns from a text file.
-// What is not: what the columns mean; writing.
+// What is here: reading a table of numbers with named columns from a text file; quoting of a text field.
+// What is not: what the columns mean; writing of whole tables.
 #pragma once
 
 #include <cstddef>
@@ -25,5 +25,8 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::stri
 /// The same from text; `name` stands for the file in messages.
 CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
                    std::size_t maximum_rows);
+
+/// `text` as one field of a CSV line: in quotes, quotes inside it doubled (RFC 4180).
+std::string csv_quoted(std::string_view text);
 
 }  // namespace perfora::io

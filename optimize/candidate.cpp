@@ -24,13 +24,6 @@ std::string label_of(const Study& study, int arm, std::span<const double> values
   return label;
 }
 
-/// Frames and checkpoints change no result; left in, they would change keys.
-void drop_output(Design& design) {
-  design.solver.output.frames = solver::FrameChoice::none;
-  design.solver.output.frame_strains.clear();
-  design.solver.output.checkpoint_interval = solver::OutputOptions{}.checkpoint_interval;
-}
-
 Candidate make_candidate(const Study& study, int arm, std::span<const double> values) {
   Candidate candidate;
   candidate.arm = arm;

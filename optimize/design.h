@@ -71,6 +71,6 @@ class DesignFile {
 };
 
 /// Raised with every change of what an evaluation gives; part of the cache key of studies.
-inline constexpr int results_version = 2;
+inline constexpr int results_version = 3;
 
 }  // namespace perfora::optimize

@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "optimize/candidate.h"
+#include "optimize/evaluation_queue.h"
 #include "optimize/objective.h"
 #include "optimize/study.h"
 
 namespace perfora::optimize {
-
-/// Evaluations by request key.
-using Answers = std::map<std::string, Evaluation>;
 
 /// One question to an executor.
 struct Wanted {

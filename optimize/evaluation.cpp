@@ -35,6 +35,8 @@ solver::Summary empty_summary() {
                         &summary.densification_strain,
                         &summary.efficiency_strain,
                         &summary.only_rising_strain,
+                        &summary.recovery_strain,
+                        &summary.intermediate_peaks,
                         &summary.energy_absorbed,
                         &summary.cundall_share,
                         &summary.largest_fragment_fraction,

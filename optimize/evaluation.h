@@ -124,6 +124,8 @@ nlohmann::json to_json(const Request& request);
 Request request_from_json(const nlohmann::json& record);
 /// The request for one replicate of a design; `until` = 0: as far as the design says.
 Request make_request(const DesignFile& design, int replicate, double until = 0.0);
+/// Frames and checkpoints change no result; left in a request's design, they would change its key.
+void drop_output(Design& design);
 /// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
 /// Evaluation with status `failed` and the reason, so that a search goes on.
 Evaluation evaluate_request(const Request& request, int threads);

@@ -62,6 +62,8 @@ constexpr SummaryNumber summary_numbers[] = {
     {"densification_strain", &solver::Summary::densification_strain},
     {"efficiency_strain", &solver::Summary::efficiency_strain},
     {"only_rising_strain", &solver::Summary::only_rising_strain},
+    {"recovery_strain", &solver::Summary::recovery_strain},
+    {"intermediate_peaks", &solver::Summary::intermediate_peaks},
     {"energy_absorbed", &solver::Summary::energy_absorbed},
     {"cundall_share", &solver::Summary::cundall_share},
     {"largest_fragment_fraction", &solver::Summary::largest_fragment_fraction},
@@ -123,6 +125,8 @@ solver::Summary summary_from(const json& record) {
   solver::Summary summary;
   for (const SummaryNumber& entry : summary_numbers) summary.*entry.value = number_from(record, entry.name);
   for (const SummaryCount& entry : summary_counts) summary.*entry.value = record.at(entry.name).get<std::int64_t>();
+  for (const json& peak : record.value("peaks", json::array()))
+    summary.peaks.push_back({peak.at(0).get<double>(), peak.at(1).get<double>()});
   summary.plateau_start = record.at("plateau_window").at(0).get<double>();
   summary.plateau_end = record.at("plateau_window").at(1).get<double>();
   return summary;
@@ -162,6 +166,9 @@ json to_json(const solver::Summary& summary) {
   json record = json::object();
   for (const SummaryNumber& entry : summary_numbers) record[entry.name] = number(summary.*entry.value);
   for (const SummaryCount& entry : summary_counts) record[entry.name] = summary.*entry.value;
+  json peaks = json::array();
+  for (const solver::CurvePeak& peak : summary.peaks) peaks.push_back({peak.strain, peak.stress});
+  record["peaks"] = peaks;
   record["plateau_window"] = {number(summary.plateau_start), number(summary.plateau_end)};
   return record;
 }

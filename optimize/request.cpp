@@ -28,6 +28,12 @@ Request make_request(const DesignFile& design, int replicate, double until) {
   return {design.schema().to_toml(), replicate, until};
 }
 
+void drop_output(Design& design) {
+  design.solver.output.frames = solver::FrameChoice::none;
+  design.solver.output.frame_strains.clear();
+  design.solver.output.checkpoint_interval = solver::OutputOptions{}.checkpoint_interval;
+}
+
 Evaluation evaluate_request(const Request& request, int threads) {
   try {
     DesignFile design = DesignFile::from_toml(request.design_toml, "request");

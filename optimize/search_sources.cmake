@@ -9,5 +9,9 @@ set(search_sources
   driver.cpp
   executor_in_process.cpp
   executor_children.cpp
+  evaluation_queue.cpp
   study_run.cpp
-  study_result.cpp)
+  study_result.cpp
+  sweep.cpp
+  sweep_run.cpp
+  sweep_result.cpp)

@@ -276,6 +276,15 @@ std::string readable(double value, io::Dimension dimension) {
   }
 }
 
+std::string readable(const io::Value& value) {
+  if (const auto* real = std::get_if<double>(&value.data)) return fmt::format("{:g}", *real);
+  const auto* list = std::get_if<io::ValueList>(&value.data);
+  if (!list) return value_text(value);
+  std::string text;
+  for (const io::Value& item : *list) text += (text.empty() ? "" : ", ") + readable(item);
+  return fmt::format("[{}]", text);
+}
+
 std::vector<double> Study::values_at(std::span<const double> x) const {
   std::vector<double> values(variables.size());
   for (std::size_t k = 0; k < values.size(); ++k) {

@@ -109,5 +109,7 @@ std::string value_text(const io::Value& value);
 
 /// "16.2 mm", "0.25": a value of a key as people read it.
 std::string readable(double value, io::Dimension dimension);
+/// A value as it was written, with as few digits as tell it.
+std::string readable(const io::Value& value);
 
 }  // namespace perfora::optimize

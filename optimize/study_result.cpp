@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "io/csv.h"
 #include "io/journal.h"
 #include "optimize/nlopt_search.h"
 
@@ -111,22 +112,16 @@ json plateau_json(const Plan& plan) {
           {"seeds", fresh ? "fresh" : "of the search"}};
 }
 
-std::string csv_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place,
                      const Visit& visit) {
-  std::string line = fmt::format("{},{},{}", stage, csv_text(arm), place);
+  std::string line = fmt::format("{},{},{}", stage, io::csv_quoted(arm), place);
   for (std::size_t k = 0; k < study.variables.size(); ++k) line += fmt::format(",{:.17g}", visit.candidate->values[k]);
   const bool broken = visit.candidate->violation > 0.0;
   const char* status = broken               ? "breaks a constraint"
                        : !visit.answered    ? "open"
                        : visit.detail.valid ? "completed"
                                             : "failed";
-  line += fmt::format(",{},{:.17g}", csv_text(status), visit.candidate->violation);
+  line += fmt::format(",{},{:.17g}", io::csv_quoted(status), visit.candidate->violation);
   auto add = [&](double value, bool known) { line += known ? fmt::format(",{:.17g}", value) : ","; };
   const bool any = visit.detail.replicates > visit.detail.failed;
   add(visit.score, visit.answered);

@@ -21,10 +21,16 @@ double share(const Axis& axis, double value) {
 }
 
 std::vector<double> ticks_of(const Axis& axis, int wanted) {
+  if (!axis.choices.empty()) {
+    std::vector<double> ticks;
+    for (std::size_t k = 0; k < axis.choices.size(); ++k) ticks.push_back(static_cast<double>(k));
+    return ticks;
+  }
   return axis.logarithmic ? decade_ticks(axis.low, axis.high) : nice_ticks(axis.low, axis.high, wanted);
 }
 
 std::vector<std::string> texts_of(const Axis& axis, const std::vector<double>& ticks) {
+  if (!axis.choices.empty()) return axis.choices;
   if (!axis.logarithmic) return tick_texts(ticks);
   std::vector<std::string> texts;
   for (double tick : ticks) texts.push_back(fmt::format("{:g}", tick));
@@ -105,18 +111,24 @@ void Chart::draw_axes(bool x_texts) {
   }
   const std::vector<double> x_ticks = ticks_of(x_, static_cast<int>(std::max(2.0, box_.width / 90.0)));
   const std::vector<std::string> texts = texts_of(x_, x_ticks);
+  const TextStyle below{.size = tick_text_size, .colour = palette::soft_ink, .align = Align::centre};
+  double longest = 0.0;  // of choices, which stand upright where they would run into each other
+  for (const std::string& text : x_.choices) longest = std::max(longest, canvas_.text_width(text, below));
+  const bool upright = longest + 8.0 > box_.width / std::max<double>(1.0, static_cast<double>(x_.choices.size()));
   for (std::size_t k = 0; k < x_ticks.size(); ++k) {
     const double x = px(x_ticks[k]);
     canvas_.line(x, box_.y, x, box_.bottom(), palette::grid);
     canvas_.line(x, box_.bottom(), x, box_.bottom() + 5.0, palette::soft_ink);
-    if (x_texts)
-      canvas_.text(x, box_.bottom() + 24.0, texts[k],
-                   {.size = tick_text_size, .colour = palette::soft_ink, .align = Align::centre});
+    if (!x_texts) continue;
+    if (upright)
+      canvas_.text_upright(x, box_.bottom() + 12.0 + 0.5 * canvas_.text_width(texts[k], below), texts[k], below);
+    else
+      canvas_.text(x, box_.bottom() + 24.0, texts[k], below);
   }
   canvas_.line(box_.x, box_.bottom(), box_.right(), box_.bottom(), palette::soft_ink, 1.4);
   canvas_.line(box_.x, box_.y, box_.x, box_.bottom(), palette::soft_ink, 1.4);
   if (x_texts)
-    canvas_.text(box_.x + box_.width / 2.0, box_.bottom() + 52.0, x_.label,
+    canvas_.text(box_.x + box_.width / 2.0, box_.bottom() + (upright ? longest + 36.0 : 52.0), x_.label,
                  {.size = label_size, .align = Align::centre});
   canvas_.text_upright(box_.x - widest - 30.0, box_.y + box_.height / 2.0, y_.label, {.size = label_size});
 }

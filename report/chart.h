@@ -14,6 +14,8 @@ struct Axis {
   double low = 0.0, high = 1.0;
   std::string label;
   bool logarithmic = false;  ///< base 10; low must be positive
+  /// Instead of round numbers: texts at 0, 1, 2, ... (a choice each).
+  std::vector<std::string> choices = {};
 };
 
 /// Round numbers (1, 2 or 5 times a power of ten) from low to high, about `wanted` of them, at least two where low <

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/perforation.h"
+#include "report/curve_mean.h"
 
 namespace perfora::report {
 
@@ -20,11 +21,6 @@ struct StudyEvaluation {
   std::vector<double> values;                               ///< of the variables
   double score = std::numeric_limits<double>::quiet_NaN();  ///< smaller is better; NaN: failed or not simulated
   bool feasible = true;                                     ///< false: a constraint is violated (nothing was simulated)
-};
-
-/// One curve; engineering strain, Pa; equally long.
-struct StudyCurve {
-  std::vector<double> strain, stress;
 };
 
 struct StudyPicture {

@@ -100,7 +100,7 @@ BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::
   if (noise.kind == NoiseKind::perlin)
     field.emplace(frame.width > 0.0 ? frame.width : clipped.width, frame.height > 0.0 ? frame.height : clipped.height,
                   noise.length, noise_seed);
-  const double amplitude = noise.deviation > 0.0 ? perlin_amplitude_for(noise.deviation) : noise.amplitude;
+  const double amplitude = perlin_amplitude(noise);
   BondNetwork network;
   find_bonds(clipped, layout, material.horizon, mean_diameter,
              [&](std::int32_t i, std::int32_t j, const Branch& branch) {
@@ -110,7 +110,7 @@ BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::
                if (field)
                  strength = perlin_factor(field->value(clipped.x[at] - frame.origin_x + 0.5 * branch.x,
                                                        clipped.y[at] - frame.origin_y + 0.5 * branch.y),
-                                          amplitude);
+                                          amplitude, noise.mapping);
                if (noise.kind == NoiseKind::weibull)
                  strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
                network.i.push_back(i);

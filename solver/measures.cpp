@@ -12,7 +12,9 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
 constexpr double smoothing_width = 0.005;     // docs/theory.md: the 0.5 %-smoothed stress
-constexpr double rising_share = 0.9;          // of its running maximum
+constexpr double rising_share = 0.9;          // "only rises": never falls below this share of an earlier stress
+constexpr double recovery_share = 0.5;        // of the first peak
+constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
 
 /// Value of y at x by linear interpolation; x inside the range.
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -97,6 +99,47 @@ double largest_efficiency_strain(const std::vector<double>& strain, const std::v
   return at;
 }
 
+/// Strain of the first row from which on `stress` never falls below `rising_share` of what it was.
+double only_rising_from(const std::vector<double>& strain, const std::vector<double>& stress) {
+  double later = std::numeric_limits<double>::infinity();
+  for (std::size_t k = stress.size(); k-- > 0;) {
+    later = std::min(later, stress[k]);
+    if (stress[k] > 0.0 && later < rising_share * stress[k]) return strain[k + 1];
+  }
+  return nan;  // It never falls.
+}
+
+/// First strain at which `stress`, once below `level` after `from`, reaches it again.
+double recovery_strain(const std::vector<double>& strain, const std::vector<double>& stress, double from,
+                       double level) {
+  bool fallen = false;
+  for (std::size_t k = 0; k < stress.size(); ++k) {
+    if (strain[k] <= from) continue;
+    if (fallen && stress[k] >= level) return strain[k];
+    fallen = fallen || stress[k] < level;
+  }
+  return nan;
+}
+
+/// Height of the maximum at row k above the higher of the two valleys that part it from higher ground, or from the end
+/// of the curve where there is none (topographic prominence).
+double prominence(const std::vector<double>& y, std::size_t k) {
+  double left = y[k], right = y[k];
+  for (std::size_t j = k; j-- > 0 && y[j] <= y[k];) left = std::min(left, y[j]);
+  for (std::size_t j = k + 1; j < y.size() && y[j] <= y[k]; ++j) right = std::min(right, y[j]);
+  return y[k] - std::max(left, right);
+}
+
+/// Maxima of `stress` behind the first peak that stand `height` above their surroundings.
+std::vector<CurvePeak> peaks_behind(const std::vector<double>& strain, const std::vector<double>& stress, double from,
+                                    double height) {
+  std::vector<CurvePeak> peaks;
+  for (std::size_t k = 1; k + 1 < stress.size(); ++k)
+    if (strain[k] > from && stress[k] > stress[k - 1] && stress[k] >= stress[k + 1] && prominence(stress, k) >= height)
+      peaks.push_back({strain[k], stress[k]});
+  return peaks;
+}
+
 }  // namespace
 
 double energy_residual(const History& history, double from_strain) {
@@ -140,10 +183,12 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   const auto& stress = history.stress_yy;
   summary.plateau_start = plateau_start;
   summary.plateau_end = plateau_end;
-  for (double* value : {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation,
-                        &summary.densification_strain, &summary.cundall_share, &summary.efficiency_strain,
-                        &summary.only_rising_strain, &summary.energy_absorbed, &summary.stress_drop_ratio})
+  for (double* value :
+       {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
+        &summary.cundall_share, &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed,
+        &summary.stress_drop_ratio, &summary.recovery_strain, &summary.intermediate_peaks})
     *value = nan;
+  summary.peaks.clear();
   if (strain.size() < 2) return;
   const double work_end = std::min(plateau_end, strain.back());
   const double work = interpolate(strain, history.external_work, work_end);
@@ -158,10 +203,13 @@ void measure_curve(const History& history, double plateau_start, double plateau_
     summary.stress_drop_ratio = smallest / summary.first_peak_stress;
   }
   const std::vector<double> smooth = smoothed(strain, stress, smoothing_width);
-  double running = 0.0;
-  for (std::size_t k = 0; k < strain.size(); ++k) {
-    running = std::max(running, smooth[k]);
-    if (smooth[k] < rising_share * running) summary.only_rising_strain = strain[k];
+  summary.only_rising_strain = only_rising_from(strain, smooth);
+  if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
+    // Smoothing carries the first peak half its width on.
+    const double behind = summary.first_peak_strain + 0.5 * smoothing_width;
+    summary.recovery_strain = recovery_strain(strain, smooth, behind, recovery_share * summary.first_peak_stress);
+    summary.peaks = peaks_behind(strain, smooth, behind, peak_prominence * summary.first_peak_stress);
+    summary.intermediate_peaks = static_cast<double>(summary.peaks.size());
   }
   summary.efficiency_strain = largest_efficiency_strain(strain, stress);
 

@@ -118,8 +118,8 @@ double perlin_deviation() {
   return deviation;
 }
 
-double perlin_amplitude_for(double deviation) {
-  return 2.0 * deviation / perlin_deviation();
+double perlin_amplitude(const NoiseOptions& noise) {
+  return noise.deviation > 0.0 ? 2.0 * noise.deviation / perlin_deviation() : noise.amplitude;
 }
 double largest_perlin_amplitude() {
   return 2.0;

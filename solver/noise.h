@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "solver/options.h"
@@ -27,16 +28,18 @@ class PerlinField {
   std::array<std::uint8_t, 512> permutation_;
 };
 
-/// Standard deviation of p over the plane, from the closed form of the noise at random points (see noise.cpp), and the
-/// amplitude for a wanted deviation of the factor.
+/// Standard deviation of p over the plane, from the closed form of the noise at random points (see noise.cpp).
 double perlin_deviation();
-double perlin_amplitude_for(double deviation);
+/// Delta of the options: `amplitude`, or what gives the wanted deviation of the factor (of its logarithm).
+double perlin_amplitude(const NoiseOptions& noise);
+/// Where the linear mapping could give a factor of zero.
 double largest_perlin_amplitude();
 double largest_perlin_deviation();
 
-/// 1 + Delta (noise - 1/2), noise = (p + 1)/2 (docs/theory.md, "Heterogeneity").
-inline double perlin_factor(double p, double amplitude) {
-  return 1.0 + amplitude * ((p + 1.0) / 2.0 - 0.5);
+/// 1 + Delta (noise - 1/2) or exp(Delta (noise - 1/2)), noise = (p + 1)/2 (docs/theory.md, "Heterogeneity").
+inline double perlin_factor(double p, double amplitude, NoiseMapping mapping) {
+  const double deviation = amplitude * ((p + 1.0) / 2.0 - 0.5);
+  return mapping == NoiseMapping::linear ? 1.0 + deviation : std::exp(deviation);
 }
 
 /// Weibull factor of mean 1 for one bond: a counter-based draw of (seed, bond).

@@ -1,6 +1,8 @@
 // What is here: the solver's keys in the table, and checks that reach across keys.
 #include "solver/options.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "solver/noise.h"
@@ -55,10 +57,13 @@ void describe(io::Schema& schema, SolverOptions& options) {
               "none; Perlin's improved noise, periodic over the cell; Weibull, independent per bond.")
       .real("length", noise.length, Dimension::length, Range::positive(),
             "Perlin: lattice length l (rounded so that it divides the cell).")
-      .real("amplitude", noise.amplitude, Dimension::none, {0.0, 2.0, false, true},
-            "Perlin: Delta in 1 + Delta (noise - 1/2).")
+      .choice(
+          "mapping", noise.mapping, {{"linear", NoiseMapping::linear}, {"exponential", NoiseMapping::exponential}},
+          "Perlin: factor 1 + Delta (noise - 1/2), Delta below 2; or exp(Delta (noise - 1/2)), any Delta, median 1.")
+      .real("amplitude", noise.amplitude, Dimension::none, Range::between(0.0, 20.0), "Perlin: Delta.")
       .real("std", noise.deviation, Dimension::ratio, Range::between(0.0, 2.0),
-            "Perlin: wanted standard deviation of the factor instead of amplitude (0: use amplitude).")
+            "Perlin: wanted standard deviation of the factor (exponential: of its logarithm) instead of amplitude (0: "
+            "use amplitude).")
       .real("weibull_modulus", noise.weibull_modulus, Dimension::none, {0.5, 1000.0, false, false},
             "Weibull: shape parameter; the mean factor is 1.");
   LoadingOptions& loading = options.loading;
@@ -85,12 +90,13 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Time step over the critical one.")
       .choice("kernel", dynamics.kernel, {{"openmp", KernelChoice::openmp}, {"reference", KernelChoice::reference}},
               "openmp: vectorised, all threads; reference: plain and sequential, the oracle.")
-      .choice("simd", dynamics.simd,
-              {{"auto", SimdChoice::automatic},
-               {"avx512", SimdChoice::avx512},
-               {"avx2", SimdChoice::avx2},
-               {"portable", SimdChoice::portable}},
-              "Instruction set of the vector kernels; auto: the best this machine has. Equal bits hold on one of them.");
+      .choice(
+          "simd", dynamics.simd,
+          {{"auto", SimdChoice::automatic},
+           {"avx512", SimdChoice::avx512},
+           {"avx2", SimdChoice::avx2},
+           {"portable", SimdChoice::portable}},
+          "Instruction set of the vector kernels; auto: the best this machine has. Equal bits hold on one of them.");
   BoundaryOptions& boundary = options.boundary;
   schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
       .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
@@ -137,11 +143,16 @@ void validate(const SolverOptions& options, const io::Schema& schema) {
   if (!(options.measures.plateau_start < options.measures.plateau_end))
     throw io::InputError(schema.origin("measures.plateau_end"), "the plateau window is empty",
                          "plateau_end must be larger than plateau_start", "raise plateau_end");
-  if (options.noise.kind == NoiseKind::perlin && options.noise.deviation > 0.0 &&
-      perlin_amplitude_for(options.noise.deviation) >= largest_perlin_amplitude())
-    throw io::InputError(schema.origin("noise.std"), "a bond could get a threshold factor of zero or less",
-                         "std must stay below " + std::to_string(largest_perlin_deviation()),
-                         "lower std, or take kind = \"weibull\" for wider spreads");
+  const NoiseOptions& noise = options.noise;
+  if (noise.kind != NoiseKind::perlin || noise.mapping != NoiseMapping::linear) return;
+  if (perlin_amplitude(noise) >= largest_perlin_amplitude()) {
+    const bool by_std = noise.deviation > 0.0;
+    throw io::InputError(schema.origin(by_std ? "noise.std" : "noise.amplitude"),
+                         "a bond could get a threshold factor of zero or less",
+                         fmt::format("{} must stay below {:.4g} with the linear mapping", by_std ? "std" : "amplitude",
+                                     by_std ? largest_perlin_deviation() : largest_perlin_amplitude()),
+                         "lower it, or take mapping = \"exponential\" or kind = \"weibull\" for wider spreads");
+  }
 }
 
 }  // namespace perfora::solver

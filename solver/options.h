@@ -13,6 +13,8 @@ enum class DamageForm { linear_damage, linear_force };
 enum class DamageInCompression { none, full };
 enum class ThresholdScaling { none, strength, toughness };
 enum class NoiseKind { none, perlin, weibull };
+/// From Perlin's p to the factor: 1 + Delta p/2, or exp(Delta p/2), which is never zero or less.
+enum class NoiseMapping { linear, exponential };
 enum class LoadingControl { adaptive, constant };
 enum class MassScaling { uniform_step, physical };
 enum class FrameChoice { none, few, all };
@@ -45,10 +47,11 @@ struct MaterialOptions {
 /// [noise]: spatial variation of both thresholds.
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::none;
+  NoiseMapping mapping = NoiseMapping::linear;
   double length = 5.04e-3;  ///< l, m
   double amplitude = 1.8;   ///< Delta
-  double deviation =
-      0.0;  ///< key `std`: when positive, the wanted standard deviation of the factor instead of `amplitude`
+  double deviation = 0.0;   ///< key `std`: when positive, the wanted standard deviation of the factor (of its logarithm
+                           ///< in the exponential mapping) instead of `amplitude`
   double weibull_modulus = 4.0;
 };
 

@@ -49,6 +49,12 @@ struct BreakEvent {
   double energy = 0.0;  ///< U0 at the break, J/m
 };
 
+/// A maximum of the 0.5 %-smoothed curve.
+struct CurvePeak {
+  double strain = 0.0;  ///< engineering
+  double stress = 0.0;  ///< Pa
+};
+
 /// Scalar results of one run; NaN where a value was not reached (written as null).
 struct Summary {
   RunStatus status = RunStatus::completed;
@@ -63,7 +69,12 @@ struct Summary {
       0.0;  ///< smallest row stress after the first peak (before twice its strain + 1 %) over the peak
   double plateau_stress = 0.0, plateau_start = 0.0, plateau_end = 0.0;
   double minimum_stress_in_window = 0.0, undulation = 0.0;
-  double densification_strain = 0.0, efficiency_strain = 0.0, only_rising_strain = 0.0;
+  double densification_strain = 0.0, efficiency_strain = 0.0;
+  double only_rising_strain = 0.0;  ///< from here on the smoothed stress never falls by more than a tenth
+  double recovery_strain = 0.0;     ///< where the smoothed stress, once below half the first peak, reaches that again
+  double intermediate_peaks = 0.0;  ///< number of `peaks`; NaN without a first peak
+  /// Behind the first peak, at least 5 % of it above the valleys around them (topographic prominence).
+  std::vector<CurvePeak> peaks;
   double energy_absorbed = 0.0;  ///< external work per reference area up to the end of the plateau window, J/m3
   double cundall_share =
       0.0;  ///< of the external work up to the end of the plateau window, or of the run when it ends before

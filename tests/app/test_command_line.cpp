@@ -71,7 +71,8 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
-  for (const std::string command : {"", "pack", "evaluate", "optimize", "test", "calibrate", "check", "show", "plot"}) {
+  for (const std::string command :
+       {"", "pack", "evaluate", "optimize", "sweep", "test", "calibrate", "check", "show", "plot"}) {
     const Outcome help = run(command + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.error, "") << command;

@@ -11,6 +11,7 @@ perfora_add_test(test_search
     test_driver.cpp
     test_executor.cpp
     test_study_run.cpp
+    test_sweep.cpp
   LIBRARIES Perfora::optimize fmt::fmt PkgConfig::nlopt
   LABELS unit
   TIMEOUT 120)

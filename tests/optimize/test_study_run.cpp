@@ -48,8 +48,8 @@ class StudyRunTest : public testing::Test {
 
   Study study(const std::string& text = study_text(keys, arms)) { return read_study(folder.file("study.toml", text)); }
 
-  StudyRunOptions options(const std::string& name, Evaluate evaluate = fake_with_failures, int workers = 1) {
-    StudyRunOptions made;
+  WorkOptions options(const std::string& name, Evaluate evaluate = fake_with_failures, int workers = 1) {
+    WorkOptions made;
     made.folder = folder / name;
     made.make_executor = [evaluate, workers] { return make_in_process_executor(evaluate, workers); };
     return made;
@@ -78,7 +78,7 @@ TEST_F(StudyRunTest, WorkersDoNotChangeTheResult) {
 
 TEST_F(StudyRunTest, ChildProcessesGiveWhatThisProcessGives) {
   StudyRun here(study(), options("here", fake_evaluation));
-  StudyRunOptions children = options("children");
+  WorkOptions children = options("children");
   children.make_executor = [this] {
     ChildOptions made;
     made.command = {PERFORA_FAKE_WORKER, "formula", (folder / "").string()};
@@ -99,7 +99,7 @@ TEST_F(StudyRunTest, KilledAtEveryEvaluationItEndsWithTheSameRecord) {
     const pid_t child = ::fork();
     if (child == 0) {
       int count = 0;
-      StudyRunOptions dying = options(name);
+      WorkOptions dying = options(name);
       dying.make_executor = [&] {
         return std::make_unique<SynchronousExecutor>([&](const Request& request) {
           if (++count == kill_at) ::kill(::getpid(), SIGKILL);
@@ -114,7 +114,7 @@ TEST_F(StudyRunTest, KilledAtEveryEvaluationItEndsWithTheSameRecord) {
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status));
     int asked = 0;
-    StudyRunOptions again = options(name, [&](const Request& request) {
+    WorkOptions again = options(name, [&](const Request& request) {
       ++asked;
       return fake_with_failures(request);
     });
@@ -126,7 +126,7 @@ TEST_F(StudyRunTest, KilledAtEveryEvaluationItEndsWithTheSameRecord) {
 }
 
 TEST_F(StudyRunTest, ATornLastLineCostsOneEvaluation) {
-  StudyRunOptions first = options("torn");
+  WorkOptions first = options("torn");
   nlohmann::json expected;
   {
     StudyRun run(study(), first);
@@ -136,7 +136,7 @@ TEST_F(StudyRunTest, ATornLastLineCostsOneEvaluation) {
   for (const double share : {0.2, 0.5, 0.77, 0.999}) {
     std::ofstream(folder / "torn/journal.jsonl", std::ios::binary | std::ios::trunc)
         << whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
-    StudyRunOptions again = options("torn");
+    WorkOptions again = options("torn");
     again.resume = true;
     StudyRun run(study(), again);
     EXPECT_EQ(finish(run), expected) << share;
@@ -147,7 +147,7 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
   StudyRun straight(study(), options("straight"));
   const auto expected = finish(straight);
   int seen = 0;
-  StudyRunOptions stopping = options("stopped");
+  WorkOptions stopping = options("stopped");
   stopping.stop_requested = [&] { return ++seen > 8; };
   {
     StudyRun run(study(), stopping);
@@ -158,7 +158,7 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
     EXPECT_EQ(to_json(run).at("status"), "stopped");
   }
   EXPECT_NE(io::read_file(folder / "stopped/journal.jsonl").find("\"event\":\"stop\""), std::string::npos);
-  StudyRunOptions again = options("stopped");
+  WorkOptions again = options("stopped");
   again.resume = true;
   StudyRun run(study(), again);
   EXPECT_EQ(finish(run), expected);
@@ -178,7 +178,7 @@ TEST_F(StudyRunTest, AStoppedEvaluationIsNoAnswer) {
 TEST_F(StudyRunTest, AFinishedStudyResumedAsksNothing) {
   StudyRun run(study(), options("done"));
   const auto expected = finish(run);
-  StudyRunOptions again = options("done2");
+  WorkOptions again = options("done2");
   std::filesystem::create_directories(folder / "done2");
   std::filesystem::copy_file(folder / "done/journal.jsonl", folder / "done2/journal.jsonl");
   again.resume = true;
@@ -200,7 +200,7 @@ TEST_F(StudyRunTest, MoreCandidatesGoOnWhereFewerEnded) {
     StudyRun run(study(with(20)), options("grown"));
     run.run();
   }
-  StudyRunOptions again = options("grown");
+  WorkOptions again = options("grown");
   again.resume = true;
   StudyRun run(study(with(45)), again);
   EXPECT_EQ(finish(run), expected);
@@ -211,14 +211,14 @@ TEST_F(StudyRunTest, RefusesAFolderInUseAndAnotherStudy) {
     StudyRun run(study(), options("out"));
     run.run();
     EXPECT_NE(input_error([&] {
-                StudyRunOptions second = options("out");
+                WorkOptions second = options("out");
                 second.resume = true;
                 StudyRun other(study(), second);
               }).find("in use"),
               std::string::npos);
   }
   EXPECT_NE(input_error([&] { StudyRun again(study(), options("out")); }).find("--resume"), std::string::npos);
-  StudyRunOptions resume = options("out");
+  WorkOptions resume = options("out");
   resume.resume = true;
   const auto refused = [&](const std::string& text) {
     return input_error([&] { StudyRun other(study(text), resume); });
@@ -233,7 +233,7 @@ TEST_F(StudyRunTest, RefusesAFolderInUseAndAnotherStudy) {
   EXPECT_NE(message.find("target.plateau_stress"), std::string::npos) << message;
   EXPECT_NE(message.find("200000"), std::string::npos) << message;
   EXPECT_NE(message.find("300000"), std::string::npos) << message;
-  StudyRunOptions force = options("out");
+  WorkOptions force = options("out");
   force.force = true;
   StudyRun fresh(study(target), force);
   EXPECT_TRUE(fresh.answers().empty());
@@ -245,7 +245,7 @@ TEST_F(StudyRunTest, RefusesADesignThatChangedBehindIt) {
     run.run();
   }
   std::ofstream(folder / "design.toml", std::ios::app) << "[material]\nhorizon = 2.5\n";
-  StudyRunOptions resume = options("out");
+  WorkOptions resume = options("out");
   resume.resume = true;
   EXPECT_NE(input_error([&] { StudyRun other(study(), resume); }).find("design.material.horizon"), std::string::npos);
 }

@@ -13,6 +13,7 @@
 #include "report/chart.h"
 #include "report/plot.h"
 #include "report/plot_study.h"
+#include "report/plot_sweep.h"
 #include "report/search_panel.h"
 #include "synthetic_run.h"
 
@@ -239,6 +240,43 @@ TEST(Study, AnEmptyAndAFullPictureAreDrawn) {
   picture.facts = {{"diameter", "18.2 mm", "20 mm"}};
   plot_study(picture, folder / "full.png");
   EXPECT_EQ(Image(folder / "full.png").height(), 1000);
+}
+
+/// Mean height of the pixels of a colour right of `left`; 0 where there are none.
+double mean_row(const Image& image, unsigned colour, int left) {
+  double sum = 0.0, count = 0.0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = left; x < image.width(); ++x)
+      if (image.at(x, y) == colour) sum += y, count += 1.0;
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+TEST(Sweep, DrawsGroupsWithTheirResults) {
+  const auto folder = fresh_folder("sweep");
+  plot_sweep({}, folder / "empty.png");
+  SweepPicture picture;
+  picture.title = "Sweep";
+  picture.measures = {"plateau_stress"};
+  const StudyCurve curve{small_run().run.column("strain_yy"), small_run().run.column("stress_yy")};
+  SweepGroup group;
+  group.label = "material.horizon";
+  group.places = {"2", "3"};
+  group.series = {""};
+  group.points.push_back({0, 0, {curve, curve}, {{{1e4, 3e4}, 2e4, 1e4}}});
+  group.points.push_back({1, 0, {curve}, {{{9e4}, 9e4, NAN}}});
+  picture.groups = {group, group};
+  picture.groups[1].places = {"a long name that has to stand upright because", "two of them do not fit"};
+  picture.groups[1].points.push_back({1, 0, {}, {{{}, NAN, NAN}}});  // not run yet
+  picture.base.push_back({0, 0, {curve}, {{{5e4, 5e4}, 5e4, 0.0}}});
+  plot_sweep(picture, folder / "full.png");
+  const Image image(folder / "full.png");
+  EXPECT_EQ(image.width(), 1600);
+  // Colours of the first and the last place: 20 kPa stands below 90 kPa.
+  const double low = mean_row(image, 0x2d4a9a, 650), high = mean_row(image, 0xc8401c, 650);
+  EXPECT_GT(low, 0.0);
+  EXPECT_GT(high, 0.0);
+  EXPECT_GT(low, high);
+  EXPECT_THROW(plot_sweep(picture, folder / "full.gif"), io::InputError);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "solver/measures.h"
 #include "solver/noise.h"
@@ -67,24 +69,85 @@ TEST(Measures, ShortRunHasNoPlateau) {
   EXPECT_TRUE(std::isnan(s.energy_absorbed));
 }
 
-// A triangle up to 1 at 0.01, down to 0.1 at 0.02, up again from 0.45: drop ratio 0.1; only rising after the last row
-// below 0.9 of the running maximum.
-TEST(Measures, PeakDropAndRise) {
-  const auto stress = [](double e) {
-    if (e < 0.01) return e / 0.01;
-    if (e < 0.02) return 1.0 - 0.9 * (e - 0.01) / 0.01;
-    if (e < 0.45) return 0.1;
-    return 0.1 + (e - 0.45) / 0.15 * 3.0;
+/// Piecewise linear through corners.
+auto through(std::vector<std::pair<double, double>> corners) {
+  return [corners](double e) {
+    for (std::size_t k = 1; k < corners.size(); ++k)
+      if (e <= corners[k].first) {
+        const auto [x0, y0] = corners[k - 1];
+        const auto [x1, y1] = corners[k];
+        return y0 + (e - x0) / (x1 - x0) * (y1 - y0);
+      }
+    return corners.back().second;
   };
-  const History h = sampled(0.6, 1200, stress, [](double) { return 0.0; });
+}
+
+Summary measured(const std::vector<std::pair<double, double>>& corners, double peak_strain, double peak_stress) {
+  const History h = sampled(0.6, 2400, through(corners), [](double) { return 0.0; });
   Summary s;
-  s.first_peak_stress = 1.0;
-  s.first_peak_strain = 0.01;
+  s.first_peak_stress = peak_stress;
+  s.first_peak_strain = peak_strain;
   measure_curve(h, 0.2, 0.4, 1.0, s);
+  return s;
+}
+
+// Up to 1 at 0.01, down to 0.1 at 0.02, level to 0.45, then up by 20 a unit strain: drop ratio 0.1; half the peak again
+// at 0.45 + 0.4/20 = 0.47 (a straight line is its own running mean); the last stress that a later one falls a tenth
+// short of is on the way down, where the running mean of slope -90 passes 0.1/0.9, so at 0.02 - 0.0111/90; within half
+// the smoothing width (0.0025) of the corner.
+TEST(Measures, PeakDropAndRise) {
+  const Summary s = measured({{0.0, 0.0}, {0.01, 1.0}, {0.02, 0.1}, {0.45, 0.1}, {0.6, 3.1}}, 0.01, 1.0);
   EXPECT_NEAR(s.stress_drop_ratio, 0.1, 1e-9);
-  // The 0.5 %-smoothed peak of slopes 100 and -90 is m = 1 - (0.25 x 0.5 + 0.225 x 0.5)/2 = 0.88125; 0.9 m is passed on
-  // the rise at 0.45 + (0.9 m - 0.1)/20. Rows of 0.0005 and the discrete smoothing leave two rows of slack.
-  EXPECT_NEAR(s.only_rising_strain, 0.45 + (0.9 * 0.88125 - 0.1) * 0.05, 0.001);
+  EXPECT_NEAR(s.recovery_strain, 0.47, 0.0005);
+  EXPECT_NEAR(s.only_rising_strain, 0.02, 0.0026);
+  EXPECT_EQ(s.intermediate_peaks, 0.0);
+}
+
+// Triangles of height h and slopes +- a over a level of 0.1: the running mean of width w lowers a tip by a w/4. Heights
+// 0.4 (at 0.1) and 0.2 (at 0.3) with slopes of 10 stay above 5 % of the first peak (tips at 0.4875, 0.2875), one of
+// 0.05 at 0.2 (tip 0.0375 above the level) does not. The stress falls for the last time behind 0.3.
+TEST(Measures, PeaksBehindTheFirst) {
+  const Summary s = measured({{0.0, 0.0},
+                              {0.01, 1.0},
+                              {0.02, 0.1},
+                              {0.06, 0.1},
+                              {0.1, 0.5},
+                              {0.14, 0.1},
+                              {0.195, 0.1},
+                              {0.2, 0.15},
+                              {0.205, 0.1},
+                              {0.28, 0.1},
+                              {0.3, 0.3},
+                              {0.32, 0.1},
+                              {0.5, 0.1},
+                              {0.6, 2.1}},
+                             0.01, 1.0);
+  ASSERT_EQ(s.peaks.size(), 2U);
+  EXPECT_EQ(s.intermediate_peaks, 2.0);
+  EXPECT_NEAR(s.peaks[0].strain, 0.1, 0.0003);
+  EXPECT_NEAR(s.peaks[0].stress, 0.5 - 10.0 * 0.005 / 4.0, 0.0015);
+  EXPECT_NEAR(s.peaks[1].strain, 0.3, 0.0003);
+  EXPECT_NEAR(s.peaks[1].stress, 0.3 - 10.0 * 0.005 / 4.0, 0.0015);
+  EXPECT_NEAR(s.only_rising_strain, 0.32, 0.0026);
+  EXPECT_NEAR(s.recovery_strain, 0.5 + 0.4 / 20.0, 0.0005);
+}
+
+// A peak on the flank of a higher one counts by the valley between them, not by its own height.
+TEST(Measures, ProminenceIsCountedFromTheValley) {
+  const Summary s = measured(
+      {{0.0, 0.0}, {0.01, 1.0}, {0.02, 0.1}, {0.1, 0.6}, {0.12, 0.57}, {0.2, 0.9}, {0.3, 0.1}, {0.5, 0.1}, {0.6, 2.1}},
+      0.01, 1.0);
+  ASSERT_EQ(s.peaks.size(), 1U);
+  EXPECT_NEAR(s.peaks[0].strain, 0.2, 0.0026);
+  EXPECT_NEAR(s.recovery_strain, 0.02 + 0.4 / 6.25, 0.0005);
+}
+
+// A stress that only falls is never recovered, and "only rising" begins nowhere before the last row.
+TEST(Measures, NoRecovery) {
+  const Summary s = measured({{0.0, 0.0}, {0.01, 1.0}, {0.02, 0.3}, {0.6, 0.1}}, 0.01, 1.0);
+  EXPECT_TRUE(std::isnan(s.recovery_strain));
+  EXPECT_GT(s.only_rising_strain, 0.5);
+  EXPECT_EQ(s.intermediate_peaks, 0.0);
 }
 
 TEST(Measures, ResidualAndModulus) {
@@ -120,9 +183,25 @@ TEST(Noise, PerlinStatistics) {
   EXPECT_LE(largest, 1.0);
   EXPECT_NEAR(sum / static_cast<double>(count), 0.0, 0.01);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), perlin_deviation(), 0.02 * perlin_deviation());
-  EXPECT_NEAR(perlin_deviation() * perlin_amplitude_for(0.3) / 2.0, 0.3, 1e-12);
+  NoiseOptions wanted;
+  wanted.deviation = 0.3;
+  EXPECT_NEAR(perlin_deviation() * perlin_amplitude(wanted) / 2.0, 0.3, 1e-12);
   // docs/theory.md: the default Delta = 1.8 gives a spread of about 0.24.
   EXPECT_NEAR(0.9 * perlin_deviation(), 0.24, 0.02);
+}
+
+// Both mappings: 1 at p = 0, slope Delta/2 there; the exponential one has the logarithm Delta p/2 everywhere.
+TEST(Noise, Mappings) {
+  for (const double delta : {0.5, 1.8, 6.0}) {
+    EXPECT_EQ(perlin_factor(0.0, delta, NoiseMapping::exponential), 1.0);
+    EXPECT_EQ(perlin_factor(0.0, delta, NoiseMapping::linear), 1.0);
+    constexpr double h = 1e-6;
+    for (const auto mapping : {NoiseMapping::linear, NoiseMapping::exponential})
+      EXPECT_NEAR((perlin_factor(h, delta, mapping) - perlin_factor(-h, delta, mapping)) / (2.0 * h), 0.5 * delta,
+                  1e-8);
+    for (const double p : {-1.0, -0.4, 0.7})
+      EXPECT_NEAR(std::log(perlin_factor(p, delta, NoiseMapping::exponential)), 0.5 * delta * p, 1e-12);
+  }
 }
 
 // Weibull factor: mean 1 and variance Gamma(1+2/m)/Gamma(1+1/m)^2 - 1.

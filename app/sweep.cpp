@@ -1,0 +1,198 @@
+// What is here: `perfora sweep`: every case of a sweep file simulated by worker processes in a folder, then its tables
+// and picture. What is not: the cases (optimize/sweep.h), the runs (optimize/sweep_run.h), drawing (report/).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/summary_text.h"
+#include "app/workers.h"
+#include "optimize/study.h"
+#include "optimize/sweep_result.h"
+#include "report/plot_sweep.h"
+#include "solver/run.h"
+
+namespace perfora::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using optimize::Sweep;
+using optimize::SweepCase;
+
+struct SweepFlags {
+  CommonFlags common;
+  std::string sweep, output;
+  bool resume = false;
+  int workers = 0;
+};
+
+optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
+  optimize::WorkOptions options;
+  options.folder = output_or_default(flags.output, default_name(flags.sweep, "-result"));
+  options.resume = flags.resume;
+  options.force = flags.common.force;
+  options.command_line = command_line();
+  options.stop_requested = [] { return solver::stop_requested(); };
+  options.make_executor = worker_executor(sweep.workers(flags.workers), flags.common.thread_count());
+  return options;
+}
+
+/// Number of `text` in `list`, appended where it is new.
+int place_of(std::vector<std::string>& list, const std::string& text) {
+  const auto found = std::find(list.begin(), list.end(), text);
+  if (found == list.end()) list.push_back(text);
+  return static_cast<int>(std::find(list.begin(), list.end(), text) - list.begin());
+}
+
+report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one) {
+  report::SweepPoint point;
+  for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
+    const optimize::Evaluation* evaluation = run.known(one, replicate);
+    if (evaluation && evaluation->status == solver::RunStatus::completed)
+      point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
+  }
+  for (const std::string& name : run.sweep().measures) {
+    report::SweepValue value;
+    for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
+      const optimize::Evaluation* evaluation = run.known(one, replicate);
+      if (evaluation && evaluation->status == solver::RunStatus::completed)
+        value.replicates.push_back(optimize::measure_of(*evaluation, name));
+    }
+    const optimize::Statistic statistic = optimize::statistic_of(name, value.replicates);
+    value.mean = statistic.mean;
+    value.half_interval = statistic.confidence_95;
+    point.values.push_back(std::move(value));
+  }
+  return point;
+}
+
+/// What a case is called along x and among the series: the last key of a grid runs along x, everything before it makes
+/// the series; rows without a grid stand along x under their names.
+struct Names {
+  std::string axis, place, series;
+};
+Names names_of(const Sweep& sweep, const SweepCase& one) {
+  if (!one.group.empty() || one.settings.size() == 1)
+    return {one.settings.back().key, optimize::readable(one.settings.back().value), ""};
+  if (!sweep.grid_key.empty()) {
+    const std::string& label = one.label;
+    const auto comma = label.rfind(", ");
+    return {sweep.grid_key, optimize::readable(one.settings.back().value),
+            comma == std::string::npos ? "" : label.substr(0, comma)};
+  }
+  return {"", one.label, ""};
+}
+
+report::SweepPicture picture_of(const optimize::SweepRun& run) {
+  const Sweep& sweep = run.sweep();
+  report::SweepPicture picture;
+  picture.title = sweep.file.stem().string();
+  picture.subtitle =
+      fmt::format("{} cases, {} replicate{} each; {}. Large: mean and its 95 % interval; small: replicates",
+                  sweep.cases.size(), sweep.keys.replicates, sweep.keys.replicates == 1 ? "" : "s", run.reason());
+  picture.measures = sweep.measures;
+  std::vector<std::string> groups;
+  for (const SweepCase& one : sweep.cases) {
+    if (one.number == 0) {
+      picture.base.push_back(point_of(run, one));
+      continue;
+    }
+    const auto g = static_cast<std::size_t>(place_of(groups, one.group));
+    if (g == picture.groups.size()) picture.groups.emplace_back();
+    report::SweepGroup& group = picture.groups[g];
+    const Names names = names_of(sweep, one);
+    group.label = names.axis;
+    report::SweepPoint point = point_of(run, one);
+    point.place = place_of(group.places, names.place);
+    point.series = place_of(group.series, names.series);
+    group.points.push_back(std::move(point));
+  }
+  return picture;
+}
+
+/// One result as people read it, with half of its 95 % interval.
+std::string value_text(const std::string& name, const optimize::Statistic& statistic) {
+  if (!std::isfinite(statistic.mean)) return "-";
+  const bool stress = name.ends_with("_stress") || name.ends_with("_in_window");
+  const bool share = name.ends_with("_strain");
+  const double scale = stress ? 1e-3 : share ? 100.0 : 1.0;
+  const char* unit = stress ? " kPa" : share ? " %" : "";
+  const std::string half = std::isfinite(statistic.confidence_95)
+                               ? fmt::format(" +- {:.2g}", scale * statistic.confidence_95)
+                               : std::string();
+  return fmt::format("{:.4g}{}{}", scale * statistic.mean, half, unit);
+}
+
+/// A line a case: number, label, runs, the results of the picture.
+std::string table_text(const optimize::SweepRun& run) {
+  constexpr std::size_t widest_label = 44;
+  const Sweep& sweep = run.sweep();
+  std::size_t label_width = 5;
+  for (const SweepCase& one : sweep.cases)
+    label_width = std::max(label_width, std::min(one.label.size(), widest_label));
+  std::string text = fmt::format("{:>4}  {:<{}}  {:>4}", "case", "label", label_width, "runs");
+  for (const std::string& name : sweep.measures) text += fmt::format("  {:>22}", name);
+  text += "\n";
+  for (const SweepCase& one : sweep.cases) {
+    text += fmt::format("{:>4}  {:<{}}  ", one.number, one.label.substr(0, widest_label), label_width);
+    if (!one.problem.empty()) {
+      text += "cannot be run\n";
+      continue;
+    }
+    const optimize::CaseResult result = optimize::case_result(run, one);
+    text += fmt::format("{:>4}", result.completed);
+    for (const std::string& name : sweep.measures)
+      for (const optimize::Statistic& statistic : result.statistics)
+        if (statistic.name == name) text += fmt::format("  {:>22}", value_text(name, statistic));
+    text += result.failed > 0 ? fmt::format("  {} failed\n", result.failed) : "\n";
+  }
+  return text;
+}
+
+int sweep_designs(const SweepFlags& flags) {
+  if (flags.resume && flags.common.force)
+    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+  Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides());
+  const optimize::WorkOptions options = run_options(flags, sweep);
+  optimize::SweepRun run(std::move(sweep), options);
+  log_warnings(run.sweep().warnings);
+  io::log_info(fmt::format("{} cases, {} runs", run.sweep().cases.size(), run.sweep().runs()));
+  run.run();
+  optimize::write_results(run);
+  report::plot_sweep(picture_of(run), options.folder / "sweep.png");
+  const auto record = optimize::to_json(run);
+  if (flags.common.json)
+    print_json(record);
+  else
+    print_text(summary_text(record) + table_text(run));
+  if (run.status() == solver::RunStatus::stopped)
+    io::log_warning(
+        fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
+  else
+    io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture sweep.png)",
+                             options.folder.string()));
+  return exit_code_of(run.status());
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<SweepFlags>();
+  CLI::App* command = program.add_subcommand("sweep", "Simulate a table of designs that differ in some keys");
+  command->add_option("SWEEP", flags->sweep, "Sweep file (TOML)")->required();
+  command->add_option("-o,--output", flags->output, "Folder for journal and results (default: SWEEP's name + -result)")
+      ->type_name("DIR");
+  command->add_flag("--resume", flags->resume,
+                    "Go on with a sweep that was stopped, killed or extended; finished runs are kept");
+  add_workers_flag(*command, flags->workers, "sweep");
+  add_common_flags(*command, flags->common);
+  command->callback([flags, &exit_code] {
+    flags->common.apply();
+    exit_code = sweep_designs(*flags);
+  });
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,42 @@
+// What is here: see workers.h.
+#include "app/workers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/progress.h"
+
+namespace perfora::app {
+
+namespace {
+
+constexpr int most_workers = 4096;
+
+}  // namespace
+
+std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads) {
+  const int each = std::max(1, threads / workers);
+  return [workers, each] {
+    optimize::ChildOptions children;
+    children.command = {std::filesystem::read_symlink("/proc/self/exe").string(), "worker", "--quiet", "--threads",
+                        std::to_string(each)};
+    children.workers = workers;
+    io::log_info(
+        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", each, each == 1 ? "" : "s"));
+    return optimize::make_child_executor(std::move(children));
+  };
+}
+
+void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
+  command
+      .add_option("--workers", workers,
+                  fmt::format("Evaluations at once, each in a process of its own (default: as the {} says, or one a "
+                              "core)",
+                              what))
+      ->check(CLI::Range(1, most_workers))
+      ->type_name("W");
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,290 @@
+// What is here: from a sweep file to its cases. What is not: running them.
+#include "optimize/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <thread>
+
+#include "optimize/study.h"
+
+namespace perfora::optimize {
+namespace {
+
+/// A product of choices beyond this is a slip of the pen.
+constexpr std::size_t most_cases = 10000;
+
+void describe(io::Schema& schema, SweepKeys& keys) {
+  using io::Dimension;
+  using io::Range;
+  auto section = schema.section(
+      "sweep", "A table of designs, each simulated: `[rows]`, `[grid]` and `[each]` hold lists of values a key.");
+  section.path("design", keys.design, "Design file that every case starts from");
+  section.integer("replicates", keys.replicates, Range::at_least(1),
+                  "Simulations a case; replicate r has the same seeds in every case");
+  section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true},
+               "Strain to run to; 0: as the design says");
+  section.boolean("base", keys.base, "The design itself is case 0, and all others are compared to it");
+  section.integer("workers", keys.workers, Range::non_negative(), "Simulations at once; 0: one a core");
+  section.text("measures", keys.measures, "Up to four results to draw, by their names in cases.csv");
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+}
+
+std::string after_section(const std::string& key) {
+  return key.substr(key.find('.') + 1);
+}
+
+/// The values of one key.
+struct Axis {
+  std::string key;
+  io::ValueList values;
+  int line = 0;
+};
+
+struct Reader {
+  std::filesystem::path path;
+  Sweep sweep;
+  io::Schema schema;
+  std::vector<io::Entry> fixed;        ///< [set]
+  std::vector<Axis> rows, grid, each;  ///< [rows] without its names
+  io::ValueList names;                 ///< of [rows]
+
+  explicit Reader(const std::filesystem::path& file) : path(file) {
+    describe(schema, sweep.keys);
+    sweep.file = file;
+  }
+
+  static bool belongs_here(const std::string& key) {
+    static const std::set<std::string> tables{"sweep", "set", "rows", "grid", "each"};
+    return tables.contains(key.substr(0, key.find('.')));
+  }
+
+  void take(io::Entry entry, const std::string& source) {
+    const std::string table = entry.key.substr(0, entry.key.find('.'));
+    if (table != "set" && table != "rows" && table != "grid" && table != "each")
+      return io::apply_entries(schema, {entry}, source);
+    std::erase_if(entry.key, [](char c) { return c == '"' || c == '\''; });
+    const std::string key = after_section(entry.key);
+    if (table == "set") {
+      fixed.push_back({key, entry.value});
+      return;
+    }
+    const auto* list = std::get_if<io::ValueList>(&entry.value.data);
+    if (!list || list->empty())
+      throw io::InputError({source, entry.value.line, entry.key}, "a list of values is wanted here",
+                           "such as [1.5, 2, 3]", "write the values in brackets");
+    if (table == "rows" && key == "name") {
+      names = *list;
+      return;
+    }
+    auto& axes = table == "rows" ? rows : table == "grid" ? grid : each;
+    std::erase_if(axes, [&](const Axis& axis) { return axis.key == key; });  // The command line has the last word.
+    axes.push_back({key, *list, entry.value.line});
+  }
+
+  void read(const std::vector<std::string>& overrides) {
+    for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
+    std::vector<std::string> of_design;
+    for (const std::string& text : overrides) {
+      if (!belongs_here(text))
+        of_design.push_back(text);
+      else if (text.starts_with("sweep."))
+        schema.set_override(text);
+      else
+        for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
+    }
+    if (sweep.keys.design.empty())
+      throw io::InputError({path.string(), 0, "sweep.design"}, "no design is named", "the path of a design file",
+                           "add design = \"quick.toml\" under [sweep]");
+    auto start = std::make_shared<DesignFile>(sweep.keys.design, of_design);
+    io::apply_entries(start->schema(), fixed, path.string());
+    for (const std::string& text : of_design) start->schema().set_override(text);
+    if (sweep.keys.until > 0.0) start->design().solver.loading.until = sweep.keys.until;
+    drop_output(start->design());
+    sweep.start = start;
+    if (!grid.empty()) sweep.grid_key = grid.back().key;
+    check_measures();
+    check_tables();
+  }
+
+  void check_measures() {
+    constexpr std::size_t most_drawn = 4;
+    std::string rest = sweep.keys.measures;
+    while (!trimmed(rest).empty()) {
+      const auto comma = rest.find(',');
+      const std::string name = trimmed(rest.substr(0, comma));
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+      const auto& known = sweep_measures();
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        const std::string nearest = io::nearest_name(name, known);
+        throw io::InputError(schema.origin("sweep.measures"), fmt::format("there is no result \"{}\"", name),
+                             fmt::format("{}", fmt::join(known, ", ")),
+                             nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
+      }
+      sweep.measures.push_back(name);
+    }
+    if (sweep.measures.empty() || sweep.measures.size() > most_drawn)
+      throw io::InputError(
+          schema.origin("sweep.measures"),
+          fmt::format("{} results are named, the picture has room for one to four", sweep.measures.size()),
+          "one to four names", "cases.csv holds all of them in any case");
+  }
+
+  io::Origin origin(const char* table, const Axis& axis) const {
+    return {path.string(), axis.line, fmt::format("{}.{}", table, axis.key)};
+  }
+
+  /// Every value is one its key takes; a key stands in one table of [rows] and [grid]; the columns of [rows] are
+  /// equally long.
+  void check_tables() {
+    if (rows.empty() && grid.empty() && each.empty())
+      throw io::InputError({path.string(), 0, ""}, "nothing is varied", "a table [grid], [each] or [rows]",
+                           "add for example [grid] with material.horizon = [2, 3]");
+    for (const auto& [table, axes] : {std::pair{"rows", &rows}, {"grid", &grid}, {"each", &each}})
+      for (const Axis& axis : *axes)
+        for (const io::Value& value : axis.values) {
+          DesignFile scratch = sweep.start->clone();
+          scratch.schema().set(axis.key, value, {path.string(), axis.line, axis.key});
+        }
+    for (const Axis& axis : rows) {
+      if (axis.values.size() != rows.front().values.size())
+        throw io::InputError(origin("rows", axis),
+                             fmt::format("this column has {} values, {} has {}", axis.values.size(), rows.front().key,
+                                         rows.front().values.size()),
+                             "columns of [rows] are equally long", "");
+      for (const Axis& other : grid)
+        if (other.key == axis.key)
+          throw io::InputError(origin("grid", other), "this key stands in [rows], too", "", "name it in one table");
+    }
+    if (!names.empty() && names.size() != (rows.empty() ? 0 : rows.front().values.size()))
+      throw io::InputError(
+          {path.string(), names.front().line, "rows.name"},
+          fmt::format("{} names for {} rows", names.size(), rows.empty() ? 0 : rows.front().values.size()),
+          "one name a row", "");
+    std::size_t count = rows.empty() ? 1 : rows.front().values.size();
+    for (const Axis& axis : grid) {
+      count *= axis.values.size();
+      if (count > most_cases)
+        throw io::InputError(origin("grid", axis), "far too many cases", fmt::format("at most {}", most_cases),
+                             "shorten the lists");
+    }
+  }
+
+  std::string label_of(const std::vector<SweepSetting>& settings) const {
+    std::string label;
+    for (const SweepSetting& setting : settings)
+      label += fmt::format("{}{} {}", label.empty() ? "" : ", ", after_section(setting.key), readable(setting.value));
+    return label;
+  }
+
+  void add(std::vector<SweepSetting> settings, const std::string& group, const std::string& name) {
+    SweepCase made;
+    made.number = settings.empty() ? 0 : static_cast<int>(sweep.cases.size()) + (sweep.keys.base ? 0 : 1);
+    made.group = group;
+    made.settings = std::move(settings);
+    made.label = !name.empty() ? name : made.settings.empty() ? "the design itself" : label_of(made.settings);
+    DesignFile design = sweep.start->clone();
+    for (const SweepSetting& setting : made.settings) {
+      design.schema().set(setting.key, setting.value, {path.string(), setting.value.line, setting.key});
+      if (std::find(sweep.columns.begin(), sweep.columns.end(), setting.key) == sweep.columns.end())
+        sweep.columns.push_back(setting.key);
+    }
+    try {
+      for (const std::string& warning : design.validate()) warn(warning);
+      made.design_toml = design.schema().to_toml();
+    } catch (const io::InputError& error) {
+      made.problem = error.what();
+      warn(fmt::format("case {} ({}) cannot be run: {}", made.number, made.label, made.problem));
+    }
+    sweep.cases.push_back(std::move(made));
+  }
+
+  void warn(const std::string& text) {
+    auto& warnings = sweep.warnings;
+    if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+  }
+
+  /// All combinations of [grid] from axis `next` on, the last one fastest.
+  void add_grid(std::vector<SweepSetting> settings, std::size_t next, const std::string& name) {
+    if (next == grid.size()) {
+      const std::string rest =
+          name.empty() || grid.empty()
+              ? name
+              : name + ", " + label_of({settings.end() - static_cast<std::ptrdiff_t>(grid.size()), settings.end()});
+      return add(std::move(settings), "", rest);
+    }
+    for (const io::Value& value : grid[next].values) {
+      auto with = settings;
+      with.push_back({grid[next].key, value});
+      add_grid(std::move(with), next + 1, name);
+    }
+  }
+
+  void make_cases() {
+    if (sweep.keys.base) add({}, "", "");
+    if (rows.empty() && !grid.empty()) add_grid({}, 0, "");
+    for (std::size_t row = 0; !rows.empty() && row < rows.front().values.size(); ++row) {
+      std::vector<SweepSetting> settings;
+      for (const Axis& axis : rows) settings.push_back({axis.key, axis.values[row]});
+      add_grid(std::move(settings), 0, names.empty() ? "" : readable(names[row]));
+    }
+    for (const Axis& axis : each)
+      for (const io::Value& value : axis.values) add({{axis.key, value}}, axis.key, "");
+    for (const SweepCase& one : sweep.cases)
+      if (one.problem.empty()) return;
+    throw io::InputError({path.string(), 0, ""}, "no case can be run; the first: " + sweep.cases.front().problem, "",
+                         "");
+  }
+};
+
+}  // namespace
+
+int Sweep::workers(int asked) const {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int wanted = asked > 0 ? asked : keys.workers > 0 ? keys.workers : cores;
+  return static_cast<int>(std::clamp<std::int64_t>(runs(), 1, wanted));
+}
+
+std::int64_t Sweep::runs() const {
+  const auto count =
+      std::count_if(cases.begin(), cases.end(), [](const SweepCase& one) { return one.problem.empty(); });
+  return static_cast<std::int64_t>(count) * keys.replicates;
+}
+
+Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Reader reader(path);
+  reader.read(overrides);
+  reader.make_cases();
+  return std::move(reader.sweep);
+}
+
+std::string sweep_reference() {
+  SweepKeys keys;
+  io::Schema schema;
+  describe(schema, keys);
+  return schema.reference();
+}
+
+const std::vector<std::string>& sweep_measures() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> found;
+    const nlohmann::json record = to_json(solver::Summary{});
+    for (const auto& entry : record.items())
+      if (entry.value().is_number()) found.push_back(entry.key());
+    return found;
+  }();
+  return names;
+}
+
+double measure_of(const Evaluation& evaluation, const std::string& name) {
+  const nlohmann::json value = to_json(evaluation.summary).at(name);
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace perfora::optimize

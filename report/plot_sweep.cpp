@@ -1,0 +1,216 @@
+// What is here: drawing of a sweep. What is not: its data (plot_sweep.h), axes (chart.h).
+#include "report/plot_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "report/canvas.h"
+#include "report/chart.h"
+
+namespace perfora::report {
+namespace {
+
+constexpr double page_width = 1600.0;
+constexpr double page_margin = 44.0;
+constexpr double first_row = 150.0;
+constexpr double panel_height = 300.0;
+constexpr double row_gap = 110.0;        ///< below a panel: ticks, label, names of the next row's series
+constexpr double character_width = 8.4;  ///< of tick texts, about
+constexpr double curves_left = 124.0, curves_width = 470.0;
+constexpr double measures_left = 706.0, measure_gap = 108.0;
+/// The stress axis spans at most this ratio: below it there is dust.
+constexpr double stress_decades = 1000.0;
+constexpr double logarithmic_ratio = 20.0;
+
+/// What a result is drawn as, by the end of its name.
+struct Unit {
+  double scale;
+  std::string label;
+};
+Unit unit_of(const std::string& measure) {
+  std::string name = measure;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const auto ends = [&](const char* end) { return name.ends_with(end); };
+  if (ends(" stress") || ends(" stress in window")) return {1e-3, name + " (kPa)"};
+  if (ends(" strain")) return {100.0, name + " (%)"};
+  if (name == "energy absorbed") return {1e-3, name + " (kJ/m3)"};
+  return {1.0, name};
+}
+
+/// From blue over green to red: the order of the values.
+Colour ramp(std::size_t place, std::size_t count) {
+  static const std::vector<Colour> stops = {hex(0x2d4a9a), hex(0x1b9aaa), hex(0x5aa02c), hex(0xe69f00), hex(0xc8401c)};
+  if (count < 2) return stops.front();
+  const double at = static_cast<double>(place) / static_cast<double>(count - 1) * static_cast<double>(stops.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+  return mix(stops[k], stops[k + 1], at - static_cast<double>(k));
+}
+
+Colour colour_of(const SweepGroup& group, const SweepPoint& point, bool curve) {
+  const auto place = static_cast<std::size_t>(point.place);
+  if (group.series.size() < 2) return ramp(place, group.places.size());
+  const Colour own = palette::series()[static_cast<std::size_t>(point.series) % palette::series().size()];
+  const double faint = static_cast<double>(place) / std::max<double>(1.0, static_cast<double>(group.places.size() - 1));
+  return curve ? mix(own, palette::paper, 0.55 * (1.0 - faint)) : own;
+}
+
+Axis measure_axis(const SweepPicture& picture, const SweepGroup& group, std::size_t measure) {
+  const Unit unit = unit_of(picture.measures[measure]);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto* points : {&group.points, &picture.base})
+    for (const SweepPoint& point : *points)
+      for (const double value : point.values[measure].replicates) {
+        if (!std::isfinite(value)) continue;
+        low = std::min(low, unit.scale * value);
+        high = std::max(high, unit.scale * value);
+      }
+  Axis axis;
+  axis.label = unit.label;
+  if (!(high >= low)) return axis;
+  axis.logarithmic = low > 0.0 && high > logarithmic_ratio * low;
+  if (axis.logarithmic) {
+    axis.low = low / 1.5;
+    axis.high = high * 1.5;
+  } else {
+    axis.low = std::min(0.0, 1.1 * low);
+    axis.high = high > 0.0 ? 1.15 * high : 1.0;
+  }
+  return axis;
+}
+
+void draw_point(Canvas& canvas, const Chart& chart, double place, const SweepValue& value, double scale,
+                const Colour& colour) {
+  if (!std::isfinite(value.mean)) return;
+  const double x = chart.px(place);
+  const auto y = [&](double level) {
+    return std::clamp(chart.py(std::max(scale * level, chart.y_axis().low)), chart.box().y, chart.box().bottom());
+  };
+  for (const double one : value.replicates)
+    if (std::isfinite(one)) canvas.disc(x - 7.0, y(one), 2.6, mix(colour, palette::paper, 0.35), colour, 0.6);
+  if (value.half_interval > 0.0)
+    canvas.line(x, y(value.mean - value.half_interval), x, y(value.mean + value.half_interval), colour, 2.2);
+  canvas.disc(x, y(value.mean), 5.6, colour, palette::paper, 1.0);
+}
+
+void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, std::size_t measure,
+                  const Box& box) {
+  const double scale = unit_of(picture.measures[measure]).scale;
+  Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
+  x.choices = group.places;
+  Chart chart(canvas, box, x, measure_axis(picture, group, measure));
+  for (const SweepPoint& base : picture.base) {
+    const double mean = scale * base.values[measure].mean, half = scale * base.values[measure].half_interval;
+    if (!std::isfinite(mean)) continue;
+    if (half > 0.0)
+      chart.y_band(std::max(mean - half, chart.y_axis().low), std::min(mean + half, chart.y_axis().high), palette::grid,
+                   0.8);
+    chart.horizontal(mean, x.low, x.high, palette::soft_ink, 1.6, {6.0, 5.0});
+  }
+  chart.draw_axes();
+  const double shift = 0.5 / static_cast<double>(group.series.size());
+  for (std::size_t s = 0; s < group.series.size(); ++s) {
+    std::vector<double> places, means;
+    const double aside = shift * (static_cast<double>(s) - 0.5 * static_cast<double>(group.series.size() - 1));
+    for (const SweepPoint& point : group.points) {
+      if (point.series != static_cast<int>(s)) continue;
+      const double mean = scale * point.values[measure].mean;
+      if (!std::isfinite(mean)) continue;
+      places.push_back(point.place + aside);
+      means.push_back(std::max(mean, chart.y_axis().low));
+    }
+    const Colour line = group.series.size() > 1 ? palette::series()[s % palette::series().size()] : palette::soft_ink;
+    chart.polyline(places, means, line, 1.4, 0.6);
+  }
+  for (const SweepPoint& point : group.points) {
+    const double aside = shift * (point.series - 0.5 * static_cast<double>(group.series.size() - 1));
+    draw_point(canvas, chart, point.place + aside, point.values[measure], scale, colour_of(group, point, false));
+  }
+}
+
+void draw_curve(Chart& chart, const std::vector<StudyCurve>& curves, const Colour& colour, double thickness) {
+  StudyCurve mean = smoothed_mean(curves);
+  for (double& value : mean.strain) value *= 100.0;
+  for (double& value : mean.stress) value = std::max(1e-3 * value, 0.5 * chart.y_axis().low);
+  chart.polyline(mean.strain, mean.stress, colour, thickness);
+}
+
+void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, const Box& box) {
+  double highest = 0.0, lowest = std::numeric_limits<double>::infinity(), end = 0.0;
+  for (const auto* points : {&group.points, &picture.base})
+    for (const SweepPoint& point : *points) {
+      const StudyCurve mean = smoothed_mean(point.curves);
+      for (std::size_t k = 0; k < mean.strain.size(); ++k) {
+        end = std::max(end, 100.0 * mean.strain[k]);
+        highest = std::max(highest, 1e-3 * mean.stress[k]);
+        if (mean.stress[k] > 0.0) lowest = std::min(lowest, 1e-3 * mean.stress[k]);
+      }
+    }
+  if (!(highest > 0.0)) {
+    canvas.text(box.x + 0.5 * box.width, box.y + 0.5 * box.height, "no curve yet",
+                {.size = 17.0, .colour = palette::soft_ink, .align = Align::centre});
+    return;
+  }
+  const Axis stress{std::max(0.8 * lowest, highest / stress_decades), 1.5 * highest, "stress (kPa)", true};
+  Chart chart(canvas, box, {0.0, end, "engineering strain (%)"}, stress);
+  chart.draw_axes();
+  for (const SweepPoint& base : picture.base) draw_curve(chart, base.curves, palette::soft_ink, 1.4);
+  for (const SweepPoint& point : group.points) draw_curve(chart, point.curves, colour_of(group, point, true), 2.2);
+}
+
+/// Names of the series above the measures; of places where the colours stand for them, above the curves.
+void draw_names(Canvas& canvas, const SweepGroup& group, bool with_base, double y) {
+  const TextStyle style{.size = 15.0, .colour = palette::soft_ink};
+  double x = curves_left;
+  const auto add = [&](const std::string& text, const Colour& colour) {
+    const double width = 26.0 + canvas.text_width(text, style) + 18.0;
+    if (x + width > page_width - page_margin) return;
+    canvas.line(x, y - 5.0, x + 20.0, y - 5.0, colour, 3.0);
+    canvas.text(x + 26.0, y, text, style);
+    x += width;
+  };
+  if (group.series.size() > 1)
+    for (std::size_t s = 0; s < group.series.size(); ++s)
+      add(group.series[s], palette::series()[s % palette::series().size()]);
+  else
+    for (std::size_t p = 0; p < group.places.size(); ++p) add(group.places[p], ramp(p, group.places.size()));
+  if (with_base) add("the design itself", palette::soft_ink);
+}
+
+/// Room below the panels of a group: more where its texts stand upright.
+double room_below(const SweepPicture& picture, const SweepGroup& group) {
+  std::size_t longest = 0;
+  for (const std::string& text : group.places) longest = std::max(longest, text.size());
+  const double count = static_cast<double>(picture.measures.size());
+  const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
+  const double text = character_width * static_cast<double>(longest);
+  return row_gap + (text + 8.0 > width / static_cast<double>(group.places.size()) ? text : 0.0);
+}
+
+}  // namespace
+
+void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out) {
+  double height = first_row;
+  for (const SweepGroup& group : picture.groups) height += panel_height + room_below(picture, group);
+  Canvas canvas(out, page_width, height);
+  const TextStyle title{.size = 30.0, .bold = true};
+  const TextStyle line{.size = 17.0, .colour = palette::soft_ink};
+  canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
+  canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
+  const double count = static_cast<double>(picture.measures.size());
+  const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
+  double y = first_row;
+  for (const SweepGroup& group : picture.groups) {
+    draw_names(canvas, group, !picture.base.empty(), y - 14.0);
+    draw_curves(canvas, picture, group, {curves_left, y, curves_width, panel_height});
+    for (std::size_t m = 0; m < picture.measures.size(); ++m)
+      draw_measure(canvas, picture, group, m,
+                   {measures_left + static_cast<double>(m) * (width + measure_gap), y, width, panel_height});
+    y += panel_height + room_below(picture, group);
+  }
+  canvas.write();
+}
+
+}  // namespace perfora::report

@@ -1,0 +1,226 @@
+// What is here: sweep files read to their cases; sweeps run with formulas for simulations: once a run, resumed,
+// extended, their statistics against closed forms. What is not: real simulations, pictures (tests/report).
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include "io/csv.h"
+#include "io/journal.h"
+#include "io/progress.h"
+#include "optimize/sweep_result.h"
+#include "study_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+std::string sweep_text(const std::string& tables, const std::string& keys = "replicates = 3") {
+  return "[sweep]\ndesign = \"design.toml\"\n" + keys + "\n" + tables;
+}
+
+/// Plateau = 1e5 (horizon + replicate) + 1e4 zeta_max; fails at a horizon of 2.25.
+Evaluation formula(const Request& request) {
+  const auto entries = io::parse_toml(request.design_toml, "request");
+  const double horizon = number_in(entries, "material.horizon");
+  if (horizon == 2.25) return failed_evaluation(request, "unstable step");
+  Evaluation evaluation;
+  evaluation.status = solver::RunStatus::completed;
+  evaluation.replicate = request.replicate;
+  evaluation.summary.plateau_stress =
+      1e5 * (horizon + request.replicate) + 1e4 * number_in(entries, "material.rupture_delay");
+  evaluation.summary.first_peak_stress = std::nan("");
+  evaluation.curve.strain_yy = {0.001, 0.002};
+  evaluation.curve.stress_yy = {1.0, 2.0};
+  return evaluation;
+}
+
+class SweepTest : public testing::Test {
+ protected:
+  StudyFolder folder;
+  std::atomic<int> asked = 0;
+  void SetUp() override { io::set_verbosity(io::Verbosity::quiet); }
+  void TearDown() override { io::set_verbosity(io::Verbosity::normal); }
+
+  Sweep sweep(const std::string& text) { return read_sweep(folder.file("sweep.toml", text)); }
+  std::string refused(const std::string& text) {
+    return input_error([&] { sweep(text); });
+  }
+
+  WorkOptions options(const std::string& name, bool resume = false, int workers = 1) {
+    WorkOptions made;
+    made.folder = folder / name;
+    made.resume = resume;
+    made.make_executor = [this, workers] {
+      return make_in_process_executor(
+          [this](const Request& request) {
+            ++asked;
+            return formula(request);
+          },
+          workers);
+    };
+    return made;
+  }
+
+  static const Statistic& statistic(const std::vector<Statistic>& all, const std::string& name) {
+    for (const Statistic& one : all)
+      if (one.name == name) return one;
+    throw std::logic_error("no result " + name);
+  }
+};
+
+TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
+  const Sweep made = sweep(sweep_text(
+      "[set]\nmaterial.rupture_delay = 1.2\n[rows]\nname = [\"soft\", \"stiff\"]\nmaterial.normal_stiffness = [1e7, "
+      "2e7]\nmaterial.tangential_stiffness = [4e6, 8e6]\n[grid]\nmaterial.horizon = [2, 2.5, "
+      "3]\n[each]\nlayout.diameter "
+      "= [\"15 mm\", \"16 mm\"]\n",
+      "replicates = 2\nbase = true"));
+  ASSERT_EQ(made.cases.size(), 1U + 2U * 3U + 2U);
+  EXPECT_EQ(made.cases[0].number, 0);
+  EXPECT_TRUE(made.cases[0].settings.empty());
+  EXPECT_EQ(made.cases[1].label, "soft, horizon 2");
+  EXPECT_EQ(made.cases[6].label, "stiff, horizon 3");
+  EXPECT_EQ(made.cases[6].number, 6);
+  EXPECT_EQ(made.cases[7].label, "diameter 15 mm");
+  EXPECT_EQ(made.cases[7].group, "layout.diameter");
+  EXPECT_EQ(made.runs(), 18);
+  const DesignFile stiff = DesignFile::from_toml(made.cases[6].design_toml, "case");
+  EXPECT_EQ(stiff.design().solver.material.normal_stiffness, 2e7);
+  EXPECT_EQ(stiff.design().solver.material.tangential_stiffness, 8e6);
+  EXPECT_EQ(stiff.design().solver.material.horizon, 3.0);
+  EXPECT_EQ(stiff.design().solver.material.rupture_delay, 1.2);
+  EXPECT_EQ(DesignFile::from_toml(made.cases[7].design_toml, "case").design().layout.diameter, 0.015);
+  EXPECT_EQ(made.columns, (std::vector<std::string>{"material.normal_stiffness", "material.tangential_stiffness",
+                                                    "material.horizon", "layout.diameter"}));
+}
+
+TEST_F(SweepTest, TheCommandLineHasTheLastWord) {
+  const auto path = folder.file("sweep.toml", sweep_text("[each]\nmaterial.horizon = [2, 3]\n"));
+  const Sweep made =
+      read_sweep(path, {"sweep.replicates=5", "each.material.horizon=[2.5]", "material.rupture_delay=1.3"});
+  EXPECT_EQ(made.keys.replicates, 5);
+  ASSERT_EQ(made.cases.size(), 1U);
+  const Design& design = DesignFile::from_toml(made.cases[0].design_toml, "case").design();
+  EXPECT_EQ(design.solver.material.horizon, 2.5);
+  EXPECT_EQ(design.solver.material.rupture_delay, 1.3);
+}
+
+TEST_F(SweepTest, SaysWhatIsWrong) {
+  EXPECT_NE(refused(sweep_text("[grid]\nmaterial.horizont = [2, 3]\n")).find("horizon"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[grid]\nmaterial.horizon = 2\n")).find("list"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[grid]\nmaterial.horizon = [2, -1]\n")).find("material.horizon"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("")).find("nothing is varied"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[rows]\nmaterial.horizon = [2, 3]\nnoise.amplitude = [1]\n")).find("equally long"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[rows]\nname = [\"a\"]\nmaterial.horizon = [2, 3]\n")).find("1 names for 2 rows"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[rows]\nmaterial.horizon = [2]\n[grid]\nmaterial.horizon = [2]\n")).find("one table"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[each]\nmaterial.horizon = [2]\n", "measures = \"plateau\"")).find("plateau_stress"),
+            std::string::npos);
+  EXPECT_NE(refused("[sweep]\nreplicates = 2\n[each]\nmaterial.horizon = [2]\n").find("sweep.design"),
+            std::string::npos);
+  const std::string message = refused(sweep_text("[grid]\nmaterial.horizon = [2, -1]\n"));
+  EXPECT_NE(message.find("sweep.toml:5"), std::string::npos) << message;
+}
+
+TEST_F(SweepTest, ACaseThatCannotBeLaidStaysInTheTable) {
+  const std::string text = sweep_text("[each]\nlayout.diameter = [\"16 mm\", \"30 mm\"]\n");
+  SweepRun run(sweep(text), options("out"));
+  ASSERT_EQ(run.sweep().cases.size(), 2U);
+  EXPECT_NE(run.sweep().cases[1].problem.find("hole"), std::string::npos) << run.sweep().cases[1].problem;
+  run.run();
+  EXPECT_EQ(run.status(), solver::RunStatus::completed);
+  EXPECT_EQ(asked, 3);
+  write_results(run);
+  EXPECT_TRUE(to_json(run).at("cases").at(1).at("problem").is_string());
+  EXPECT_NE(refused(sweep_text("[each]\nlayout.diameter = [\"30 mm\"]\n")).find("no case can be run"),
+            std::string::npos);
+}
+
+// Replicates give 1e5 (h + r) + 1e4 zeta with r = 0, 1, 2: mean 1e5 (h + 1) + 1e4 zeta, deviation 1e5; the paired
+// change to the design (h = 3, zeta = 1.1) is the same in every replicate, so its interval is 0 up to rounding.
+TEST_F(SweepTest, StatisticsAndPairedChanges) {
+  SweepRun run(sweep(sweep_text("[each]\nmaterial.horizon = [2, 2.25]\nmaterial.rupture_delay = [2.0]\n",
+                                "replicates = 3\nbase = true")),
+               options("out", false, 3));
+  run.run();
+  const CaseResult two = case_result(run, run.sweep().cases[1]);
+  EXPECT_EQ(two.completed, 3);
+  EXPECT_NEAR(statistic(two.statistics, "plateau_stress").mean, 3e5 + 1.1e4, 1e-6);
+  EXPECT_NEAR(statistic(two.statistics, "plateau_stress").standard_deviation, 1e5, 1e-6);
+  EXPECT_NEAR(statistic(two.changes, "plateau_stress").mean, -1e5, 1e-6);
+  EXPECT_NEAR(statistic(two.changes, "plateau_stress").confidence_95, 0.0, 1e-6);
+  EXPECT_EQ(statistic(two.statistics, "first_peak_stress").count, 0);
+  EXPECT_EQ(case_result(run, run.sweep().cases[2]).failed, 3);
+  const CaseResult slow = case_result(run, run.sweep().cases[3]);
+  EXPECT_NEAR(statistic(slow.changes, "plateau_stress").mean, 0.9e4, 1e-6);
+  EXPECT_EQ(to_json(run).at("reason"), "9 of 12 runs completed");
+}
+
+TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
+  {
+    // The design's horizon is 3: with base, that case is case 0 once more.
+    SweepRun run(sweep(sweep_text("[each]\nmaterial.horizon = [2, 3]\n", "replicates = 2\nbase = true")),
+                 options("out"));
+    run.run();
+    EXPECT_EQ(asked, 4);
+    EXPECT_NE(run.known(run.sweep().cases[2], 1), nullptr);
+  }
+  EXPECT_NE(input_error([&] {
+              SweepRun again(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("out"));
+            }).find("--resume"),
+            std::string::npos);
+  SweepRun more(sweep(sweep_text("[each]\nmaterial.horizon = [2, 2.5, 3]\n", "replicates = 3\nbase = true")),
+                options("out", true));
+  more.run();
+  EXPECT_EQ(asked, 4 + 2 + 3);  // the third replicate of two designs, all of the new one
+  write_results(more);
+  const auto runs =
+      io::read_csv(folder / "out/runs.csv", {"case", "replicate", "material.horizon", "plateau_stress"}, 100);
+  ASSERT_EQ(runs.rows(), 12U);
+  for (std::size_t k = 0; k < runs.rows(); ++k)
+    EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
+}
+
+TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
+  const std::string text = sweep_text("[grid]\nmaterial.horizon = [2, 2.5]\nmaterial.rupture_delay = [1.1, 1.5]\n");
+  SweepRun straight(sweep(text), options("straight", false, 2));
+  straight.run();
+  auto expected = to_json(straight);
+  expected.erase("performance");
+  int seen = 0;
+  {
+    WorkOptions stopping = options("stopped");
+    stopping.stop_requested = [&] { return ++seen > 5; };
+    SweepRun run(sweep(text), stopping);
+    run.run();
+    EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+    write_results(run);
+  }
+  std::ofstream(folder / "stopped/journal.jsonl", std::ios::app)
+      << "0123abcd {\"event\":\"evaluation\",\"key\"";  // torn
+  SweepRun again(sweep(text), options("stopped", true));
+  again.run();
+  auto record = to_json(again);
+  record.erase("performance");
+  EXPECT_EQ(record, expected);
+  EXPECT_EQ(cases_csv(again), cases_csv(straight));
+  EXPECT_EQ(curves_csv(again), curves_csv(straight));
+}
+
+TEST_F(SweepTest, RefusesTheFolderOfAStudy) {
+  std::filesystem::create_directories(folder / "out");
+  {
+    io::Journal journal(folder / "out/journal.jsonl");
+    journal.append(R"({"event":"study"})");
+  }
+  EXPECT_NE(input_error([&] {
+              SweepRun run(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("out", true));
+            }).find("not of a sweep"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace perfora::optimize
