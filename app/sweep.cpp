@@ -35,6 +35,7 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.resume = flags.resume;
   options.force = flags.common.force;
   options.command_line = command_line();
+  options.keep_run_files = sweep.keys.run_files;
   options.stop_requested = [] { return solver::stop_requested(); };
   options.make_executor = worker_executor(sweep.workers(flags.workers), flags.common.thread_count());
   return options;

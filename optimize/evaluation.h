@@ -118,7 +118,11 @@ struct Request {
   std::string design_toml;
   int replicate = 0;
   double until = 0.0;
-  std::string key() const;  ///< hash over everything above and results_version
+  /// Where the run is written, and gone on with when it is there (finished or not) from the same instruction set;
+  /// empty: nowhere. No part of the key.
+  std::filesystem::path run_file = {};
+  bool frames = false;      ///< few frames in the run file; otherwise none. No part of the key
+  std::string key() const;  ///< hash over design, replicate, strain and results_version
 };
 nlohmann::json to_json(const Request& request);
 Request request_from_json(const nlohmann::json& record);

@@ -17,6 +17,7 @@ using nlohmann::json;
 constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr double curve_step = 0.005;
 constexpr const char* evaluation_event = "evaluation";
+constexpr const char* runs_folder = "runs";
 
 std::string duration(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
@@ -90,6 +91,25 @@ std::string EvaluationQueue::time_left(std::int64_t remaining) const {
   return fmt::format("; at most {} left", duration(mean * static_cast<double>(remaining) / parallel));
 }
 
+std::filesystem::path EvaluationQueue::run_file(const std::string& key) {
+  return std::filesystem::path(runs_folder) / (key + ".h5");
+}
+
+void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
+  std::filesystem::create_directories(options_.folder / runs_folder);
+  Request request = asked.request;
+  request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.key));
+  request.frames = options_.keep_run_files;
+  executor.submit(asked.key, request);
+}
+
+void EvaluationQueue::drop_run_file(const std::string& key) const {
+  std::filesystem::path path = options_.folder / run_file(key);
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove_all(path.replace_extension(".part"), ignored);
+}
+
 bool EvaluationQueue::run(const Next& next, const Answered& answered) {
   const auto asked_to_stop = [&] { return options_.stop_requested && options_.stop_requested(); };
   std::unique_ptr<Executor> executor;
@@ -99,7 +119,7 @@ bool EvaluationQueue::run(const Next& next, const Answered& answered) {
     if (!executor) executor = options_.make_executor();
     workers_ = executor->workers();
     for (const Asked& asked : wanted)
-      if (in_flight_.emplace(asked.key, asked).second) executor->submit(asked.key, asked.request);
+      if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
     std::optional<Answer> answer = executor->next(look_interval);
     stopped = asked_to_stop();
     if (!answer || answer->evaluation.status == solver::RunStatus::stopped) {
@@ -110,11 +130,14 @@ bool EvaluationQueue::run(const Next& next, const Answered& answered) {
       continue;  // It may have died of the same signal.
     const Asked asked = in_flight_.at(answer->key);
     record(asked, std::move(*answer));
+    if (!options_.keep_run_files) drop_run_file(asked.key);
     wanted = next();
     answered(asked, answers_.at(asked.key));
     in_flight_.erase(asked.key);
   }
   if (executor) executor->stop();
+  std::error_code ignored;
+  std::filesystem::remove(options_.folder / runs_folder, ignored);  // Where nothing is left in it.
   return !stopped;
 }
 

@@ -37,6 +37,9 @@ struct WorkOptions {
   std::string command_line;
   /// Makes the executor when something is to be evaluated; not called when the journal answers everything.
   std::function<std::unique_ptr<Executor>()> make_executor;
+  /// Run files of finished simulations stay in DIR/runs, with a few frames; otherwise only those that were stopped or
+  /// killed, which are gone on with.
+  bool keep_run_files = false;
   /// Asked often; true: end the workers, note the stop in the journal and return.
   std::function<bool()> stop_requested;
 };
@@ -63,6 +66,9 @@ class EvaluationQueue {
   /// journal. True: done; false: stopped, what is finished is kept.
   bool run(const Next& next, const Answered& answered);
 
+  /// DIR/runs/KEY.h5, relative to the folder.
+  static std::filesystem::path run_file(const std::string& key);
+
   int workers() const { return workers_; }  ///< of the last run(); 1 before
   std::size_t in_flight() const { return in_flight_.size(); }
   double simulated_seconds() const { return simulated_seconds_; }  ///< of all evaluations in the journal
@@ -73,6 +79,8 @@ class EvaluationQueue {
  private:
   void take_evaluation(const nlohmann::json& record);
   void record(const Asked& asked, Answer answer);
+  void submit(Executor& executor, const Asked& asked) const;
+  void drop_run_file(const std::string& key) const;
 
   WorkOptions options_;
   std::unique_ptr<io::Journal> journal_;

@@ -10,18 +10,23 @@ namespace perfora::optimize {
 
 std::string Request::key() const {
   // SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
-  nlohmann::json identity = to_json(*this);
+  nlohmann::json identity = to_json(Request{design_toml, replicate, until});
   identity["results_version"] = results_version;
   const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
   return boost::uuids::to_string(generator(identity.dump()));
 }
 
 nlohmann::json to_json(const Request& request) {
-  return {{"design", request.design_toml}, {"replicate", request.replicate}, {"until", request.until}};
+  nlohmann::json record = {{"design", request.design_toml}, {"replicate", request.replicate}, {"until", request.until}};
+  if (request.run_file.empty()) return record;
+  record["run_file"] = request.run_file.string();
+  record["frames"] = request.frames;
+  return record;
 }
 
 Request request_from_json(const nlohmann::json& record) {
-  return {record.at("design").get<std::string>(), record.at("replicate").get<int>(), record.at("until").get<double>()};
+  return {record.at("design").get<std::string>(), record.at("replicate").get<int>(), record.at("until").get<double>(),
+          record.value("run_file", ""), record.value("frames", false)};
 }
 
 Request make_request(const DesignFile& design, int replicate, double until) {
@@ -41,7 +46,21 @@ Evaluation evaluate_request(const Request& request, int threads) {
     static_cast<void>(design.validate());
     EvaluateOptions options;
     options.threads = threads;
-    return evaluate_design(design, options, request.replicate);
+    options.run_file = request.run_file;
+    options.resume = !request.run_file.empty();
+    if (request.frames) design.design().solver.output.frames = solver::FrameChoice::few;
+    if (request.run_file.empty()) return evaluate_design(design, options, request.replicate);
+    try {
+      return evaluate_design(design, options, request.replicate);
+    } catch (const io::InputError&) {
+      // Begun by another program or on another instruction set: begun again. What is wrong with the design is said
+      // then.
+      std::filesystem::path unfinished = request.run_file;
+      std::filesystem::remove(unfinished);
+      std::filesystem::remove_all(unfinished.replace_extension(".part"));
+      options.resume = false;
+      return evaluate_design(design, options, request.replicate);
+    }
   } catch (const io::InputError& error) {
     return failed_evaluation(error.what(), request.replicate);
   }

@@ -144,7 +144,7 @@ std::string cases_csv(const SweepRun& run) {
 std::string runs_csv(const SweepRun& run) {
   std::string text = head_columns(run) + ",replicate,status,packing_seed,noise_seed";
   for (const std::string& name : sweep_measures()) text += "," + name;
-  text += ",seconds,simd\n";
+  text += ",seconds,simd,run_file\n";
   for (const SweepCase& one : run.sweep().cases)
     for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
       const Evaluation* evaluation = run.known(one, replicate);
@@ -152,7 +152,9 @@ std::string runs_csv(const SweepRun& run) {
       text += case_columns(run, one) + fmt::format(",{},{},{},{}", replicate, solver::status_name(evaluation->status),
                                                    evaluation->seeds.packing, evaluation->seeds.noise);
       for (const std::string& name : sweep_measures()) text += field(measure_of(*evaluation, name));
-      text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + "\n";
+      text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + ",";
+      if (run.sweep().keys.run_files) text += EvaluationQueue::run_file(one.request(replicate).key()).string();
+      text += "\n";
     }
   return text;
 }

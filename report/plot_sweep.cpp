@@ -154,7 +154,7 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
     return;
   }
   const Axis stress{std::max(0.8 * lowest, highest / stress_decades), 1.5 * highest, "stress (kPa)", true};
-  Chart chart(canvas, box, {0.0, end, "engineering strain (%)"}, stress);
+  Chart chart(canvas, box, {0.0, std::ceil(end), "engineering strain (%)"}, stress);
   chart.draw_axes();
   for (const SweepPoint& base : picture.base) draw_curve(chart, base.curves, palette::soft_ink, 1.4);
   for (const SweepPoint& point : group.points) draw_curve(chart, point.curves, colour_of(group, point, true), 2.2);

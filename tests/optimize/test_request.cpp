@@ -32,6 +32,41 @@ TEST(Request, GoesThroughJson) {
   EXPECT_EQ(again.design_toml, request.design_toml);
 }
 
+TEST(Request, WhereARunIsWrittenIsNoPartOfTheKey) {
+  Request request = make_request(DesignFile(), 4, 0.45);
+  const std::string key = request.key();
+  EXPECT_FALSE(to_json(request).contains("run_file"));
+  request.run_file = "/somewhere/run.h5";
+  request.frames = true;
+  EXPECT_EQ(request.key(), key);
+  const Request again = request_from_json(to_json(request));
+  EXPECT_EQ(again.run_file, request.run_file);
+  EXPECT_TRUE(again.frames);
+}
+
+// A killed run goes on from its checkpoint; what something else left there is begun again; a finished one is read.
+TEST(Request, ARunFileIsGoneOnWith) {
+  const DesignFolder folder;
+  const DesignFile design(folder.file("design.toml", small_design));
+  Request request = make_request(design, 0, 0.01);
+  const Evaluation straight = evaluate_request(request, 1);
+  ASSERT_EQ(straight.status, solver::RunStatus::completed) << straight.reason;
+  request.run_file = folder / "run.h5";
+  std::filesystem::create_directories(folder / "run.part");
+  std::ofstream(folder / "run.part/checkpoint.h5") << "not one";
+  std::ofstream(folder / "run.part/config.toml") << "# results_version 0\n";
+  const Evaluation written = evaluate_request(request, 1);
+  EXPECT_EQ(written.status, solver::RunStatus::completed) << written.reason;
+  EXPECT_TRUE(std::filesystem::exists(request.run_file));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.part"));
+  const Evaluation read = evaluate_request(request, 1);
+  for (const Evaluation* one : {&written, &read}) {
+    EXPECT_EQ(one->curve.stress_yy, straight.curve.stress_yy);
+    EXPECT_EQ(to_json(one->summary), to_json(straight.summary));
+  }
+  EXPECT_EQ(read.performance.seconds, written.performance.seconds);  // not run again
+}
+
 TEST(Request, ADesignThatCannotBeLaidOutFailsWithItsReason) {
   DesignFile design;
   design.design().layout.diameter = 0.024;  // walls of 1 mm

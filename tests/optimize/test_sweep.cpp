@@ -210,6 +210,40 @@ TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
   EXPECT_EQ(curves_csv(again), curves_csv(straight));
 }
 
+// Where a simulation may leave its file, and when it is thrown away: never what a stop left half done.
+TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
+  const std::string tables = "[each]\nmaterial.horizon = [2, 2.5]\n";
+  for (const bool keep : {false, true}) {
+    WorkOptions writing = options(keep ? "kept" : "dropped");
+    writing.keep_run_files = keep;
+    int seen = 0;
+    writing.stop_requested = [&] { return ++seen > 3; };
+    writing.make_executor = [&] {
+      return make_in_process_executor(
+          [&](const Request& request) {
+            EXPECT_EQ(request.frames, keep);
+            EXPECT_EQ(request.run_file.parent_path(), std::filesystem::absolute(writing.folder / "runs"));
+            std::ofstream(request.run_file) << "run";
+            Evaluation evaluation = formula(request);
+            if (request.replicate == 1) evaluation.status = solver::RunStatus::stopped;
+            return evaluation;
+          },
+          1);
+    };
+    SweepRun run(sweep(sweep_text(tables, std::string("replicates = 2\nrun_files = ") + (keep ? "true" : "false"))),
+                 writing);
+    run.run();
+    EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+    const SweepCase& one = run.sweep().cases[0];
+    const auto file = [&](int replicate) {
+      return writing.folder / EvaluationQueue::run_file(one.request(replicate).key());
+    };
+    EXPECT_EQ(std::filesystem::exists(file(0)), keep);
+    EXPECT_TRUE(std::filesystem::exists(file(1)));
+    EXPECT_EQ(runs_csv(run).find("runs/") != std::string::npos, keep);
+  }
+}
+
 TEST_F(SweepTest, RefusesTheFolderOfAStudy) {
   std::filesystem::create_directories(folder / "out");
   {
