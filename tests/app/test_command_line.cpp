@@ -1,6 +1,7 @@
 // What is here: the subcommands run as a user runs them: outputs, exit codes, JSON alone on standard output, signals,
 // resume. What is not: broken input (bad_input/). Expected: exit codes of the documentation, and agreement between runs
 // that must agree.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -240,6 +241,35 @@ TEST_F(CommandLine, CheckSaysWhatWouldRun) {
   EXPECT_EQ(study["kind"], "study");
   EXPECT_GT(study["study"]["candidates"].get<int>(), 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"d.toml", "err.txt", "out.txt"})) << "check writes nothing";
+}
+
+// Two cases and the design, two replicates: tables, picture and run files appear; the same design alone gives the same
+// numbers; a finished sweep resumed with one more value runs only that.
+TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
+  std::ofstream(folder_ / "s.toml") << "[sweep]\ndesign = \"d.toml\"\nreplicates = 2\nbase = true\nrun_files = true\n"
+                                       "[each]\nmaterial.horizon = [2.0, 2.5]\n";
+  const json check = json::parse(run("check s.toml --json").output);
+  EXPECT_EQ(check["kind"], "sweep");
+  EXPECT_EQ(check["sweep"]["simulations"], 6);
+  const Outcome outcome = run("sweep s.toml -o out --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json record = json::parse(outcome.output);
+  ASSERT_EQ(record["cases"].size(), 3u);
+  EXPECT_EQ(record["cases"][1]["settings"]["material.horizon"], 2.0);
+  for (const char* name : {"cases.csv", "runs.csv", "curves.csv", "result.json", "sweep.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out/runs"), {}), 6);
+  const json alone = json::parse(run("evaluate d.toml -o r.h5 --json --set material.horizon=2").output);
+  std::ifstream runs(folder_ / "out/runs.csv");
+  std::string line;
+  while (std::getline(runs, line) && !line.starts_with("1,\"horizon 2\",2.0,0,completed")) {
+  }
+  EXPECT_THAT(line, HasSubstr("," + fmt::format("{:.12g}", alone["first_peak_stress"].get<double>()) + ","));
+  const Outcome grown = run("sweep s.toml -o out --resume --json --set 'each.material.horizon=[2.0, 2.5, 2.8]'");
+  ASSERT_EQ(grown.exit_code, 0) << grown.error;
+  EXPECT_EQ(json::parse(grown.output)["cases"].size(), 4u);
+  EXPECT_THAT(grown.error, HasSubstr("run 8 of 8"));
+  EXPECT_THAT(grown.error, ::testing::Not(HasSubstr("run 6 of 8")));
 }
 
 TEST_F(CommandLine, QuietLeavesResultsAndWarnings) {
