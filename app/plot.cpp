@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "io/error.h"
 #include "io/hdf5.h"
 
 namespace perfora::app {
@@ -14,7 +15,13 @@ struct PlotFlags {
   std::string input;
   std::string output;
   std::string title;
+  bool collapse = false;
 };
+
+[[noreturn]] void refuse_collapse(const std::filesystem::path& input) {
+  throw io::InputError({input.string(), 0, ""}, "--collapse draws the frames of a run, and this is none", "",
+                       "give the run file of perfora evaluate");
+}
 
 int plot(const PlotFlags& flags) {
   flags.common.apply();
@@ -25,7 +32,11 @@ int plot(const PlotFlags& flags) {
   check_new_output(output, flags.common.force);
   report::PlotOptions options;
   options.title = flags.title;
-  if (format.starts_with("perfora.pack/"))
+  if (flags.collapse) {
+    if (!format.starts_with("perfora.run/")) refuse_collapse(input);
+    if (options.title.empty()) options.title = input.stem().string();
+    report::plot_collapse({{"", report::read_run(input)}}, output, options);
+  } else if (format.starts_with("perfora.pack/"))
     report::plot_packing(input, output, options);
   else if (format.starts_with("perfora.test/"))
     report::plot_material_tests(input, output, options);
@@ -50,6 +61,8 @@ void add_plot(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: FILE's name + .png)");
   command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name)")->type_name("TEXT");
+  command->add_flag("--collapse", flags->collapse,
+                    "Of a run: its frames side by side instead of curve and three blocks");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });
 }

@@ -11,6 +11,7 @@
 #include "app/workers.h"
 #include "optimize/study.h"
 #include "optimize/sweep_result.h"
+#include "report/plot.h"
 #include "report/plot_sweep.h"
 #include "solver/run.h"
 
@@ -153,6 +154,19 @@ std::string table_text(const optimize::SweepRun& run) {
   return text;
 }
 
+/// collapse.png: the first replicate of every case whose run file was kept.
+void draw_collapse(const optimize::SweepRun& run) {
+  std::vector<report::CollapseRow> rows;
+  for (const SweepCase& one : run.sweep().cases) {
+    if (!run.known(one, 0)) continue;
+    const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0).key());
+    if (fs::exists(file)) rows.push_back({one.label, report::read_run(file)});
+  }
+  report::PlotOptions options;
+  options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 1)";
+  if (!rows.empty()) report::plot_collapse(rows, run.options().folder / "collapse.png", options);
+}
+
 int sweep_designs(const SweepFlags& flags) {
   if (flags.resume && flags.common.force)
     throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
@@ -164,6 +178,7 @@ int sweep_designs(const SweepFlags& flags) {
   run.run();
   optimize::write_results(run);
   report::plot_sweep(picture_of(run), options.folder / "sweep.png");
+  if (run.sweep().keys.run_files) draw_collapse(run);
   const auto record = optimize::to_json(run);
   if (flags.common.json)
     print_json(record);
@@ -173,8 +188,9 @@ int sweep_designs(const SweepFlags& flags) {
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
   else
-    io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture sweep.png)",
-                             options.folder.string()));
+    io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
+                             options.folder.string(), run.sweep().keys.run_files ? "s" : "",
+                             run.sweep().keys.run_files ? " and collapse.png" : ""));
   return exit_code_of(run.status());
 }
 

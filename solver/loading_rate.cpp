@@ -26,8 +26,8 @@ constexpr double fastest_share = 16.0;   // times the rubble's: there, too, a wa
 constexpr std::int64_t adaptive_segments = 8;  // a row: a power of two, so that rows sit at exact strains
 constexpr double stress_memory = 5e-3;         // strain that the running mean of the stress looks back on
 
-/// What the avalanches after the first peak add to the steps that the rubble's stress alone would ask for: whole runs to
-/// 60 % took 1.24 (quick.toml), 1.29 to 1.36 (2 x 2 holes at full resolution) and 1.33 times (Table 1) as many.
+/// What the avalanches after the first peak add to the steps that the rubble's stress alone would ask for: whole runs
+/// to 60 % took 1.24 (quick.toml), 1.29 to 1.36 (2 x 2 holes at full resolution) and 1.33 times (Table 1) as many.
 constexpr double avalanche_factor = 1.3;
 
 /// Stress of rubble over the first peak at this share of the cell filled with discs: an exponential through what 2 x 2

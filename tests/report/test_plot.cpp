@@ -279,5 +279,28 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   EXPECT_THROW(plot_sweep(picture, folder / "full.gif"), io::InputError);
 }
 
+// Two rows of every frame; the page is as high as both need and shows what stands in the file.
+TEST(Collapse, ARowARun) {
+  const auto folder = fresh_folder("collapse");
+  write_run(small_run(), folder / "R.h5");
+  const RunResult run = read_run(folder / "R.h5");
+  plot_collapse({{"one", run}}, folder / "one.png", {});
+  plot_collapse({{"one", run}, {"two", run}}, folder / "two.png", {});
+  const Image one(folder / "one.png"), two(folder / "two.png");
+  EXPECT_EQ(one.width(), 1600);
+  EXPECT_GT(two.height(), one.height() + 100);
+  // The second row is the first again, but for its label: the same blocks that much lower.
+  const int lower = two.height() - one.height();
+  int equal = 0, dark = 0;
+  for (int y = 200; y < one.height() - 20; ++y)
+    for (int x = 0; x < 1600; ++x) {
+      if (two.at(x, y) == 0xffffffu) continue;
+      ++dark;
+      equal += two.at(x, y) == two.at(x, y + lower);
+    }
+  EXPECT_GT(dark, 1000);
+  EXPECT_EQ(equal, dark);
+}
+
 }  // namespace
 }  // namespace perfora::report
