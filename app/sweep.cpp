@@ -93,11 +93,13 @@ report::SweepPicture picture_of(const optimize::SweepRun& run) {
   report::SweepPicture picture;
   picture.title = sweep.file.stem().string();
   picture.subtitle =
-      fmt::format("{} cases, {} replicate{} each; {}. Large: mean and its 95 % interval; small: replicates",
-                  sweep.cases.size(), sweep.keys.replicates, sweep.keys.replicates == 1 ? "" : "s", run.reason());
+      fmt::format("{} cases, {} replicate{} each; {}. Large: mean and its 95 % interval; small: replicates{}",
+                  sweep.cases.size(), sweep.keys.replicates, sweep.keys.replicates == 1 ? "" : "s", run.reason(),
+                  sweep.keys.base ? "; grey: the design itself" : "");
   picture.measures = sweep.measures;
   std::vector<std::string> groups;
   for (const SweepCase& one : sweep.cases) {
+    if (!one.problem.empty()) continue;
     if (one.number == 0) {
       picture.base.push_back(point_of(run, one));
       continue;
@@ -115,8 +117,9 @@ report::SweepPicture picture_of(const optimize::SweepRun& run) {
   return picture;
 }
 
-/// One result as people read it, with half of its 95 % interval.
-std::string value_text(const std::string& name, const optimize::Statistic& statistic) {
+/// One result as people read it, with half of its 95 % interval, and its change to case 0 in per cent of that.
+std::string value_text(const std::string& name, const optimize::Statistic& statistic,
+                       const optimize::Statistic* change) {
   if (!std::isfinite(statistic.mean)) return "-";
   const bool stress = name.ends_with("_stress") || name.ends_with("_in_window");
   const bool share = name.ends_with("_strain");
@@ -125,7 +128,10 @@ std::string value_text(const std::string& name, const optimize::Statistic& stati
   const std::string half = std::isfinite(statistic.confidence_95)
                                ? fmt::format(" +- {:.2g}", scale * statistic.confidence_95)
                                : std::string();
-  return fmt::format("{:.4g}{}{}", scale * statistic.mean, half, unit);
+  std::string text = fmt::format("{:.4g}{}{}", scale * statistic.mean, half, unit);
+  if (change && std::isfinite(change->mean) && statistic.mean != change->mean)
+    text += fmt::format(" ({:+.3g} %)", 100.0 * change->mean / (statistic.mean - change->mean));
+  return text;
 }
 
 /// A line a case: number, label, runs, the results of the picture.
@@ -136,7 +142,7 @@ std::string table_text(const optimize::SweepRun& run) {
   for (const SweepCase& one : sweep.cases)
     label_width = std::max(label_width, std::min(one.label.size(), widest_label));
   std::string text = fmt::format("{:>4}  {:<{}}  {:>4}", "case", "label", label_width, "runs");
-  for (const std::string& name : sweep.measures) text += fmt::format("  {:>22}", name);
+  for (const std::string& name : sweep.measures) text += fmt::format("  {:>28}", name);
   text += "\n";
   for (const SweepCase& one : sweep.cases) {
     text += fmt::format("{:>4}  {:<{}}  ", one.number, one.label.substr(0, widest_label), label_width);
@@ -147,15 +153,18 @@ std::string table_text(const optimize::SweepRun& run) {
     const optimize::CaseResult result = optimize::case_result(run, one);
     text += fmt::format("{:>4}", result.completed);
     for (const std::string& name : sweep.measures)
-      for (const optimize::Statistic& statistic : result.statistics)
-        if (statistic.name == name) text += fmt::format("  {:>22}", value_text(name, statistic));
+      for (std::size_t k = 0; k < result.statistics.size(); ++k)
+        if (result.statistics[k].name == name)
+          text += fmt::format("  {:>28}", value_text(name, result.statistics[k],
+                                                     result.changes.empty() ? nullptr : &result.changes[k]));
     text += result.failed > 0 ? fmt::format("  {} failed\n", result.failed) : "\n";
   }
-  return text;
+  text += "+- half of the 95 % interval of the mean";
+  return text + (sweep.keys.base ? "; in brackets the change to case 0\n" : "\n");
 }
 
 /// collapse.png: the first replicate of every case whose run file was kept.
-void draw_collapse(const optimize::SweepRun& run) {
+bool draw_collapse(const optimize::SweepRun& run) {
   std::vector<report::CollapseRow> rows;
   for (const SweepCase& one : run.sweep().cases) {
     if (!run.known(one, 0)) continue;
@@ -163,8 +172,10 @@ void draw_collapse(const optimize::SweepRun& run) {
     if (fs::exists(file)) rows.push_back({one.label, report::read_run(file)});
   }
   report::PlotOptions options;
-  options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 1)";
-  if (!rows.empty()) report::plot_collapse(rows, run.options().folder / "collapse.png", options);
+  options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 0)";
+  if (rows.empty()) return false;
+  report::plot_collapse(rows, run.options().folder / "collapse.png", options);
+  return true;
 }
 
 int sweep_designs(const SweepFlags& flags) {
@@ -178,7 +189,9 @@ int sweep_designs(const SweepFlags& flags) {
   run.run();
   optimize::write_results(run);
   report::plot_sweep(picture_of(run), options.folder / "sweep.png");
-  if (run.sweep().keys.run_files) draw_collapse(run);
+  const bool collapse = draw_collapse(run);
+  if (run.sweep().keys.run_files && !collapse)
+    io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");
   const auto record = optimize::to_json(run);
   if (flags.common.json)
     print_json(record);
@@ -189,8 +202,7 @@ int sweep_designs(const SweepFlags& flags) {
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
   else
     io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
-                             options.folder.string(), run.sweep().keys.run_files ? "s" : "",
-                             run.sweep().keys.run_files ? " and collapse.png" : ""));
+                             options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));
   return exit_code_of(run.status());
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "io/journal.h"
+#include "optimize/work_folder.h"
 
 namespace perfora::optimize {
 
@@ -63,6 +64,9 @@ void prepare_folder(const EnsembleOptions& options) {
   }
   if (!fs::is_directory(folder))
     throw io::InputError({folder.string(), 0, ""}, "is not a folder", "", "name a folder for the replicates with -o");
+  if (const std::string there = work_in(folder); !there.empty() && there != "ensemble")
+    throw io::InputError({folder.string(), 0, ""}, fmt::format("this folder holds a {}, not an ensemble", there), "",
+                         "name another folder with -o");
   if (options.resume) return;
   if (options.force) {
     remove_ensemble(folder);

@@ -16,6 +16,7 @@ using nlohmann::json;
 /// How often a stop is looked for while evaluations run.
 constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr double curve_step = 0.005;
+constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
 constexpr const char* evaluation_event = "evaluation";
 constexpr const char* runs_folder = "runs";
 
@@ -36,7 +37,9 @@ solver::History coarse_curve(const solver::History& history) {
     stress += history.stress_yy[k];
     ++count;
     const bool last = k + 1 == history.rows();
-    if (!last && std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
+    const bool fine = history.strain_yy[k] < fine_until;
+    if (!last && !fine &&
+        std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
       continue;
     coarse.strain_yy.push_back(strain / count);
     coarse.stress_yy.push_back(stress / count);

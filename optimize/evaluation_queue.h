@@ -91,8 +91,8 @@ class EvaluationQueue {
   int workers_ = 1;
 };
 
-/// A curve of at most some hundred points: strain and stress averaged over steps of 0.5 % strain. What the journal
-/// keeps.
+/// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
+/// 3 %. What the journal keeps.
 solver::History coarse_curve(const solver::History& history);
 
 }  // namespace perfora::optimize

@@ -69,6 +69,10 @@ struct Reader {
 
   void take(io::Entry entry, const std::string& source) {
     const std::string table = entry.key.substr(0, entry.key.find('.'));
+    if (entry.key.find('.') != std::string::npos && !belongs_here(entry.key))
+      throw io::InputError({source, entry.value.line, entry.key}, fmt::format("unknown table [{}]", table),
+                           "a sweep has [sweep], [set], [rows], [grid] and [each]",
+                           "keys of the design that are the same in every case go to [set]");
     if (table != "set" && table != "rows" && table != "grid" && table != "each")
       return io::apply_entries(schema, {entry}, source);
     std::erase_if(entry.key, [](char c) { return c == '"' || c == '\''; });
@@ -77,10 +81,14 @@ struct Reader {
       fixed.push_back({key, entry.value});
       return;
     }
+    if (!key.empty() && key[0] >= '0' && key[0] <= '9')
+      throw io::InputError({source, entry.value.line, entry.key}, fmt::format("[{}] is one table of lists", table), "",
+                           fmt::format("write [{}] once, and a list of values for each key", table));
     const auto* list = std::get_if<io::ValueList>(&entry.value.data);
     if (!list || list->empty())
-      throw io::InputError({source, entry.value.line, entry.key}, "a list of values is wanted here",
-                           "such as [1.5, 2, 3]", "write the values in brackets");
+      throw io::InputError({source, entry.value.line, entry.key},
+                           list ? "the list is empty" : "a list of values is wanted here",
+                           "at least one value, such as [1.5, 2, 3]", list ? "" : "write the values in brackets");
     if (table == "rows" && key == "name") {
       names = *list;
       return;
@@ -107,12 +115,32 @@ struct Reader {
     auto start = std::make_shared<DesignFile>(sweep.keys.design, of_design);
     io::apply_entries(start->schema(), fixed, path.string());
     for (const std::string& text : of_design) start->schema().set_override(text);
-    if (sweep.keys.until > 0.0) start->design().solver.loading.until = sweep.keys.until;
+    for (const std::string& text : of_design) refuse_varied(trimmed(text.substr(0, text.find('='))), "--set");
+    for (const io::Entry& entry : fixed) refuse_in(rows, grid, entry.key, "set." + entry.key, entry.value.line);
+    if (sweep.keys.until > 0.0) {
+      refuse_varied("loading.until", "sweep.until");
+      start->design().solver.loading.until = sweep.keys.until;
+    }
     drop_output(start->design());
     sweep.start = start;
     if (!grid.empty()) sweep.grid_key = grid.back().key;
     check_measures();
     check_tables();
+  }
+
+  /// A key that every case sets cannot be set for all of them, too.
+  void refuse_in(const std::vector<Axis>& first, const std::vector<Axis>& second, const std::string& key,
+                 const std::string& by, int line) const {
+    for (const auto* axes : {&first, &second})
+      for (const Axis& axis : *axes)
+        if (axis.key == key)
+          throw io::InputError({path.string(), line, by}, fmt::format("{} is varied by the sweep in every case", key),
+                               "", "take it out of one of the two places");
+  }
+
+  void refuse_varied(const std::string& key, const std::string& by) const {
+    refuse_in(rows, grid, key, by, 0);
+    refuse_in(each, each, key, by, 0);
   }
 
   void check_measures() {
@@ -169,6 +197,11 @@ struct Reader {
           {path.string(), names.front().line, "rows.name"},
           fmt::format("{} names for {} rows", names.size(), rows.empty() ? 0 : rows.front().values.size()),
           "one name a row", "");
+    for (std::size_t a = 0; a < names.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (readable(names[a]) == readable(names[b]))
+          throw io::InputError({path.string(), names.front().line, "rows.name"},
+                               fmt::format("two rows are named \"{}\"", readable(names[a])), "", "");
     std::size_t count = rows.empty() ? 1 : rows.front().values.size();
     for (const Axis& axis : grid) {
       count *= axis.values.size();
@@ -197,9 +230,9 @@ struct Reader {
       if (std::find(sweep.columns.begin(), sweep.columns.end(), setting.key) == sweep.columns.end())
         sweep.columns.push_back(setting.key);
     }
+    made.design_toml = design.schema().to_toml();
     try {
       for (const std::string& warning : design.validate()) warn(warning);
-      made.design_toml = design.schema().to_toml();
     } catch (const io::InputError& error) {
       made.problem = error.what();
       warn(fmt::format("case {} ({}) cannot be run: {}", made.number, made.label, made.problem));
@@ -254,9 +287,10 @@ int Sweep::workers(int asked) const {
 }
 
 std::int64_t Sweep::runs() const {
-  const auto count =
-      std::count_if(cases.begin(), cases.end(), [](const SweepCase& one) { return one.problem.empty(); });
-  return static_cast<std::int64_t>(count) * keys.replicates;
+  std::set<std::string> designs;
+  for (const SweepCase& one : cases)
+    if (one.problem.empty()) designs.insert(one.design_toml);
+  return static_cast<std::int64_t>(designs.size()) * keys.replicates;
 }
 
 Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
@@ -275,7 +309,8 @@ std::string sweep_reference() {
 
 const std::vector<std::string>& sweep_measures() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> found;
+    std::vector<std::string> found{"discs",         "perforations",   "porosity",
+                                   "thinnest_wall", "solid_fraction", "bonds_per_disc"};
     const nlohmann::json record = to_json(solver::Summary{});
     for (const auto& entry : record.items())
       if (entry.value().is_number()) found.push_back(entry.key());
@@ -285,7 +320,9 @@ const std::vector<std::string>& sweep_measures() {
 }
 
 double measure_of(const Evaluation& evaluation, const std::string& name) {
-  const nlohmann::json value = to_json(evaluation.summary).at(name);
+  nlohmann::json record = to_json(evaluation.summary);
+  record.update(to_json(evaluation.pack));
+  const nlohmann::json value = record.value(name, nlohmann::json());
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -36,8 +36,8 @@ struct SweepCase {
   /// What is drawn together: "" for [rows] and [grid], the key for [each].
   std::string group;
   std::vector<SweepSetting> settings;  ///< beyond the design and [set]
-  std::string design_toml;             ///< resolved design; empty where `problem` says why it cannot be run
-  std::string problem;
+  std::string design_toml;             ///< resolved design
+  std::string problem;                 ///< why it cannot be run; empty: it can
 
   Request request(int replicate) const { return {design_toml, replicate, 0.0}; }
 };
@@ -54,13 +54,13 @@ struct Sweep {
   std::vector<std::string> warnings;
 
   int workers(int asked) const;  ///< `asked`, or keys.workers, or all cores, but not more than there are runs
-  std::int64_t runs() const;     ///< cases that can be run x replicates
+  std::int64_t runs() const;     ///< different designs that can be run x replicates
 };
 
 /// Reads a sweep file and the design it names. Cases: every row of [rows] with every combination of [grid], then the
 /// values of [each] one at a time. `overrides` of [sweep], [set], [rows], [grid], [each] go to the sweep, all others to
-/// the design. A case that breaks a rule across keys (overlapping holes) stays in the table with its problem. Throws
-/// io::InputError, also when no case can be run.
+/// the design, but not a key that the sweep varies. A case that breaks a rule across keys (overlapping holes) stays in
+/// the table with its problem. Throws io::InputError, also when no case can be run.
 Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
 /// Keys of a sweep file in one printed reference (Markdown).

@@ -20,7 +20,6 @@ std::string field(double value) {
 
 /// Value of a key in a case, SI, as its design has it.
 json value_of(const SweepCase& one, const std::string& key) {
-  if (one.design_toml.empty()) return nullptr;
   const DesignFile design = DesignFile::from_toml(one.design_toml, "case");
   const io::Value value = design.schema().find(key)->get();
   if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
@@ -120,7 +119,7 @@ json to_json(const SweepRun& run) {
 }
 
 std::string cases_csv(const SweepRun& run) {
-  std::string text = head_columns(run) + ",completed,failed";
+  std::string text = head_columns(run) + ",completed,failed,problem";
   const bool compared = run.sweep().keys.base;
   for (const std::string& name : sweep_measures()) {
     text += fmt::format(",{0},{0}_std,{0}_ci95", name);
@@ -129,7 +128,8 @@ std::string cases_csv(const SweepRun& run) {
   text += "\n";
   for (const SweepCase& one : run.sweep().cases) {
     const CaseResult result = case_result(run, one);
-    text += case_columns(run, one) + fmt::format(",{},{}", result.completed, result.failed);
+    text += case_columns(run, one) + fmt::format(",{},{},{}", result.completed, result.failed,
+                                                 one.problem.empty() ? "" : io::csv_quoted(one.problem));
     for (std::size_t k = 0; k < result.statistics.size(); ++k) {
       const Statistic& s = result.statistics[k];
       text += field(s.mean) + field(s.standard_deviation) + field(s.confidence_95);
@@ -153,7 +153,8 @@ std::string runs_csv(const SweepRun& run) {
                                                    evaluation->seeds.packing, evaluation->seeds.noise);
       for (const std::string& name : sweep_measures()) text += field(measure_of(*evaluation, name));
       text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + ",";
-      if (run.sweep().keys.run_files) text += EvaluationQueue::run_file(one.request(replicate).key()).string();
+      const auto file = EvaluationQueue::run_file(one.request(replicate).key());
+      if (std::filesystem::exists(run.options().folder / file)) text += file.string();
       text += "\n";
     }
   return text;

@@ -30,7 +30,7 @@ nlohmann::json to_json(const SweepRun& run);
 std::string cases_csv(const SweepRun& run);
 /// A row a run: case, label, keys, replicate, status, seeds, every result, wall time.
 std::string runs_csv(const SweepRun& run);
-/// A row a point of a curve: case, replicate, strain, stress (Pa), averaged over steps of 0.5 % strain.
+/// A row a point of a curve: case, replicate, strain, stress (Pa), averaged over steps of 0.5 % strain above 3 %.
 std::string curves_csv(const SweepRun& run);
 
 /// Writes result.json and the three tables into the sweep's folder, each whole.

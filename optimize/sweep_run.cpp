@@ -28,15 +28,8 @@ std::string stress_text(double stress) {
 
 SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) {
   prepare_work_folder(options.folder, own_files, "sweep", options.force, options.resume);
-  const auto path = options.folder / "journal.jsonl";
   bool known = false;
-  queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json& event) {
-    const std::string name = event.value("event", "");
-    if (name != "sweep" && !known)
-      throw io::InputError({path.string(), 1, ""}, fmt::format("this journal is that of a {}, not of a sweep", name),
-                           "", "name another folder with -o");
-    known = true;
-  });
+  queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json&) { known = true; });
   if (!known || queue_->options().resume)
     queue_->note({{"event", "sweep"},
                   {"schema", "perfora.sweep/1"},
@@ -74,10 +67,7 @@ std::vector<Asked> SweepRun::wanted() const {
 }
 
 std::int64_t SweepRun::known_runs() const {
-  std::int64_t count = 0;
-  for (const SweepCase& one : sweep_.cases)
-    for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate) count += known(one, replicate) != nullptr;
-  return count;
+  return sweep_.runs() - static_cast<std::int64_t>(wanted().size());
 }
 
 void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
@@ -88,23 +78,23 @@ void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
                                : "failed: " + evaluation.reason;
   const auto left = static_cast<std::int64_t>(wanted().size());
   io::log_info(fmt::format("run {} of {}: {}, replicate {}: {}{}", known_runs(), sweep_.runs(), asked.label,
-                           asked.request.replicate + 1, what, queue_->time_left(left)));
+                           asked.request.replicate, what, queue_->time_left(left)));
 }
 
 void SweepRun::run() {
   const auto begin = std::chrono::steady_clock::now();
   const bool done = queue_->run([this] { return wanted(); },
                                 [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
-  std::int64_t completed = 0;
+  std::set<std::string> completed;  // by key: cases that come to the same design are one run
   for (const SweepCase& one : sweep_.cases)
     for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate) {
       const Evaluation* evaluation = known(one, replicate);
-      completed += evaluation && evaluation->status == solver::RunStatus::completed;
+      if (evaluation && evaluation->status == solver::RunStatus::completed) completed.insert(key_of(one, replicate));
     }
-  status_ = !done           ? solver::RunStatus::stopped
-            : completed > 0 ? solver::RunStatus::completed
-                            : solver::RunStatus::failed;
-  reason_ = done ? fmt::format("{} of {} runs completed", completed, sweep_.runs())
+  status_ = !done                ? solver::RunStatus::stopped
+            : !completed.empty() ? solver::RunStatus::completed
+                                 : solver::RunStatus::failed;
+  reason_ = done ? fmt::format("{} of {} runs completed", completed.size(), sweep_.runs())
                  : "stopped by a signal; go on with --resume";
   queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -9,8 +9,13 @@ namespace perfora::optimize {
 
 /// Makes `folder` ready for work that writes `own_files` into it (journal.jsonl among them): removes them with `force`,
 /// keeps them with `resume`, otherwise refuses a folder that holds such work or a file of such a name. `what` names the
-/// work ("study"). Throws io::InputError.
+/// work as its journal's first event does ("study"). A folder with the journal of other work is refused in any case,
+/// and folders among `own_files` are removed only beside a journal. Throws io::InputError.
 void prepare_work_folder(const std::filesystem::path& folder, std::span<const char* const> own_files,
                          const std::string& what, bool force, bool resume);
+
+/// What kind of work keeps its journal in `folder`: the name of its first event; empty without one, or where it cannot
+/// be read.
+std::string work_in(const std::filesystem::path& folder);
 
 }  // namespace perfora::optimize

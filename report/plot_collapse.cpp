@@ -40,9 +40,9 @@ std::vector<std::size_t> shown_frames(const RunResult& run) {
   return chosen;
 }
 
-/// Mean stress over 1 % strain around a frame, kPa; the peak's frame shows the fall, not the peak.
+/// Mean stress over 0.5 % strain around a frame, kPa; the peak's frame shows the fall, not the peak.
 double stress_around(const RunResult& run, double strain) {
-  constexpr double half = 0.005;
+  constexpr double half = 0.0025;
   const auto &strains = run.column("strain_yy"), &stresses = run.column("stress_yy");
   double sum = 0.0, count = 0.0;
   for (std::size_t k = 0; k < strains.size(); ++k)
@@ -96,10 +96,11 @@ void plot_collapse(const std::vector<CollapseRow>& rows, const std::filesystem::
   Canvas canvas(out, page_width, height);
   const TextStyle title{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title), title);
-  canvas.text(page_margin, 88.0,
-              "Fragments by colour (the largest in concrete, crumbs grey, lost bonds red); stress as the mean over 1 % "
-              "strain around the frame",
-              {.size = 17.0, .colour = palette::soft_ink});
+  canvas.text(
+      page_margin, 88.0,
+      "Fragments by colour (the largest in concrete, crumbs grey, lost bonds red); stress as the mean over 0.5 % "
+      "strain around the frame",
+      {.size = 17.0, .colour = palette::soft_ink});
   double y = first_row;
   for (const CollapseRow& row : rows) {
     draw_row(canvas, row, y);

@@ -99,14 +99,16 @@ double largest_efficiency_strain(const std::vector<double>& strain, const std::v
   return at;
 }
 
-/// Strain of the first row from which on `stress` never falls below `rising_share` of what it was.
+/// Strain of the first row from which on `stress` never falls below `rising_share` of what it was; NaN where it never
+/// falls, or still does at the end.
 double only_rising_from(const std::vector<double>& strain, const std::vector<double>& stress) {
   double later = std::numeric_limits<double>::infinity();
   for (std::size_t k = stress.size(); k-- > 0;) {
     later = std::min(later, stress[k]);
-    if (stress[k] > 0.0 && later < rising_share * stress[k]) return strain[k + 1];
+    if (stress[k] > 0.0 && later < rising_share * stress[k])
+      return strain.back() - strain[k + 1] > smoothing_width ? strain[k + 1] : nan;
   }
-  return nan;  // It never falls.
+  return nan;
 }
 
 /// First strain at which `stress`, once below `level` after `from`, reaches it again.

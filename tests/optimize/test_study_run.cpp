@@ -285,10 +285,11 @@ TEST(CoarseCurve, AveragesOverStepsOfStrain) {
     history.stress_yy.push_back(k);
   }
   const auto coarse = coarse_curve(history);
-  ASSERT_EQ(coarse.rows(), 10U);
-  for (std::size_t k = 0; k < 10; ++k) {
-    EXPECT_NEAR(coarse.strain_yy[k], 0.0025 + 0.005 * static_cast<double>(k), 1e-12);
-    EXPECT_NEAR(coarse.stress_yy[k], 4.5 + 10.0 * static_cast<double>(k), 1e-9);
+  ASSERT_EQ(coarse.rows(), 60U + 4U);  // as it is to 3 %, then a point a step
+  for (std::size_t k = 0; k < 60; ++k) EXPECT_EQ(coarse.stress_yy[k], static_cast<double>(k));
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(coarse.strain_yy[60 + k], 0.0325 + 0.005 * static_cast<double>(k), 1e-12);
+    EXPECT_NEAR(coarse.stress_yy[60 + k], 64.5 + 10.0 * static_cast<double>(k), 1e-9);
   }
 }
 

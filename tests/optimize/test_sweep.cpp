@@ -84,7 +84,7 @@ TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
   EXPECT_EQ(made.cases[6].number, 6);
   EXPECT_EQ(made.cases[7].label, "diameter 15 mm");
   EXPECT_EQ(made.cases[7].group, "layout.diameter");
-  EXPECT_EQ(made.runs(), 18);
+  EXPECT_EQ(made.runs(), 2 * 8);  // a diameter of 16 mm is the design itself
   const DesignFile stiff = DesignFile::from_toml(made.cases[6].design_toml, "case");
   EXPECT_EQ(stiff.design().solver.material.normal_stiffness, 2e7);
   EXPECT_EQ(stiff.design().solver.material.tangential_stiffness, 8e6);
@@ -120,6 +120,20 @@ TEST_F(SweepTest, SaysWhatIsWrong) {
   EXPECT_NE(refused(sweep_text("[each]\nmaterial.horizon = [2]\n", "measures = \"plateau\"")).find("plateau_stress"),
             std::string::npos);
   EXPECT_NE(refused("[sweep]\nreplicates = 2\n[each]\nmaterial.horizon = [2]\n").find("sweep.design"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[grids]\nmaterial.horizon = [2]\n")).find("[grid]"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[[rows]]\nmaterial.horizon = 2\n")).find("one table of lists"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[each]\nmaterial.horizon = []\n")).find("empty"), std::string::npos);
+  EXPECT_NE(refused(sweep_text("[rows]\nname = [\"a\", \"a\"]\nmaterial.horizon = [2, 3]\n")).find("two rows"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[set]\nmaterial.horizon = 2\n[grid]\nmaterial.horizon = [2, 3]\n")).find("varied"),
+            std::string::npos);
+  EXPECT_NE(refused(sweep_text("[each]\nloading.until = [0.3, 0.4]\n", "until = 0.5")).find("varied"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] {
+              read_sweep(folder.file("sweep.toml", sweep_text("[each]\nmaterial.horizon = [2, 3]\n")),
+                         {"material.horizon=2.5"});
+            }).find("varied"),
             std::string::npos);
   const std::string message = refused(sweep_text("[grid]\nmaterial.horizon = [2, -1]\n"));
   EXPECT_NE(message.find("sweep.toml:5"), std::string::npos) << message;
@@ -244,16 +258,29 @@ TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
   }
 }
 
-TEST_F(SweepTest, RefusesTheFolderOfAStudy) {
+TEST_F(SweepTest, RefusesTheFolderOfOtherWorkAndLeavesItsFiles) {
   std::filesystem::create_directories(folder / "out");
   {
     io::Journal journal(folder / "out/journal.jsonl");
     journal.append(R"({"event":"study"})");
   }
-  EXPECT_NE(input_error([&] {
-              SweepRun run(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("out", true));
-            }).find("not of a sweep"),
-            std::string::npos);
+  folder.file("out/result.json", "{}");
+  const std::string text = sweep_text("[each]\nmaterial.horizon = [2]\n");
+  for (const bool resume : {false, true})
+    for (const bool force : {false, true}) {
+      WorkOptions other = options("out", resume);
+      other.force = force;
+      EXPECT_NE(input_error([&] { SweepRun run(sweep(text), other); }).find("holds a study, not a sweep"),
+                std::string::npos);
+      EXPECT_TRUE(std::filesystem::exists(folder / "out/result.json"));
+    }
+  // A folder of somebody's own is none of ours.
+  std::filesystem::create_directories(folder / "mine/runs");
+  folder.file("mine/runs/precious.h5", "");
+  WorkOptions forced = options("mine");
+  forced.force = true;
+  EXPECT_NE(input_error([&] { SweepRun run(sweep(text), forced); }).find("would overwrite"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "mine/runs/precious.h5"));
 }
 
 }  // namespace
