@@ -9,6 +9,7 @@
 #include "optimize/calibration.h"
 #include "optimize/design.h"
 #include "optimize/study.h"
+#include "optimize/sweep.h"
 #include "tests/optimize/design_support.h"
 
 namespace perfora::optimize {
@@ -81,6 +82,8 @@ TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
     const auto check = [&] {
       if (has_section(entry.path(), "study"))
         static_cast<void>(check_study(entry.path()));
+      else if (has_section(entry.path(), "sweep"))
+        for (const SweepCase& one : read_sweep(entry.path()).cases) EXPECT_EQ(one.problem, "") << entry.path();
       else if (has_section(entry.path(), "calibrate"))
         static_cast<void>(read_calibration(entry.path(), {}));
       else
@@ -88,7 +91,7 @@ TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
     };
     EXPECT_EQ(complaint(check), "") << entry.path();
   }
-  EXPECT_GE(found, 9);
+  EXPECT_GE(found, 14);
 }
 
 TEST(ExampleDesigns, ArrangementsHaveThePorosityOfTableOne) {
