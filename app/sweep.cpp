@@ -71,19 +71,23 @@ report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one)
   return point;
 }
 
-/// What a case is called along x and among the series: the last key of a grid runs along x, everything before it makes
-/// the series; rows without a grid stand along x under their names.
+/// What a case is called along x and among the series: one key of a grid runs along x, everything else that its label
+/// says makes the series; rows without a grid stand along x under their names.
 struct Names {
   std::string axis, place, series;
 };
 Names names_of(const Sweep& sweep, const SweepCase& one) {
-  if (!one.group.empty() || one.settings.size() == 1)
-    return {one.settings.back().key, optimize::readable(one.settings.back().value), ""};
-  if (!sweep.grid_key.empty()) {
-    const std::string& label = one.label;
-    const auto comma = label.rfind(", ");
-    return {sweep.grid_key, optimize::readable(one.settings.back().value),
-            comma == std::string::npos ? "" : label.substr(0, comma)};
+  if (!one.group.empty()) return {one.settings.back().key, optimize::readable(one.settings.back().value), ""};
+  for (const optimize::SweepSetting& setting : one.settings) {
+    if (setting.key != sweep.grid_key) continue;
+    const std::string place = optimize::readable(setting.value);
+    const std::string part = setting.key.substr(setting.key.find('.') + 1) + " " + place;
+    std::string series = one.label;
+    if (const auto at = series.rfind(part); at != std::string::npos) {
+      const std::size_t before = at >= 2 ? at - 2 : 0;  // with the comma before it, or behind it where it comes first
+      series.erase(before, part.size() + 2);
+    }
+    return {setting.key, place, series};
   }
   return {"", one.label, ""};
 }

@@ -123,7 +123,8 @@ struct Reader {
     }
     drop_output(start->design());
     sweep.start = start;
-    if (!grid.empty()) sweep.grid_key = grid.back().key;
+    for (const Axis& axis : grid)
+      if (sweep.grid_key.empty() || axis.values.size() > 1) sweep.grid_key = axis.key;
     check_measures();
     check_tables();
   }
@@ -211,10 +212,18 @@ struct Reader {
     }
   }
 
+  /// Keys of [grid] with a single value tell no case from another.
+  bool constant(const std::string& key) const {
+    return std::any_of(grid.begin(), grid.end(),
+                       [&](const Axis& axis) { return axis.key == key && axis.values.size() == 1; });
+  }
+
   std::string label_of(const std::vector<SweepSetting>& settings) const {
     std::string label;
+    const bool all = std::all_of(settings.begin(), settings.end(), [&](const auto& one) { return constant(one.key); });
     for (const SweepSetting& setting : settings)
-      label += fmt::format("{}{} {}", label.empty() ? "" : ", ", after_section(setting.key), readable(setting.value));
+      if (all || !constant(setting.key))
+        label += fmt::format("{}{} {}", label.empty() ? "" : ", ", after_section(setting.key), readable(setting.value));
     return label;
   }
 

@@ -48,7 +48,7 @@ struct Sweep {
   SweepKeys keys;
   std::vector<std::string> measures;  ///< of keys.measures
   std::vector<SweepCase> cases;
-  std::string grid_key;              ///< of [grid], the one that changes fastest; "" without [grid]
+  std::string grid_key;              ///< of [grid], the one with several values that changes fastest; "" without [grid]
   std::vector<std::string> columns;  ///< every key that some case sets, in the order of the file
   std::shared_ptr<const DesignFile> start;
   std::vector<std::string> warnings;

@@ -95,6 +95,15 @@ TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
                                                     "material.horizon", "layout.diameter"}));
 }
 
+TEST_F(SweepTest, LabelsSayWhatTellsCasesApart) {
+  const Sweep made = sweep(
+      sweep_text("[grid]\nnoise.kind = [\"perlin\"]\nmaterial.horizon = [2, 3]\n[each]\nnoise.kind = [\"weibull\"]\n"));
+  ASSERT_EQ(made.cases.size(), 3U);
+  EXPECT_EQ(made.cases[0].label, "horizon 2");
+  EXPECT_EQ(made.cases[2].label, "kind weibull");
+  EXPECT_EQ(sweep(sweep_text("[grid]\nmaterial.horizon = [2]\n")).cases[0].label, "horizon 2");
+}
+
 TEST_F(SweepTest, TheCommandLineHasTheLastWord) {
   const auto path = folder.file("sweep.toml", sweep_text("[each]\nmaterial.horizon = [2, 3]\n"));
   const Sweep made =
