@@ -110,9 +110,9 @@ TEST_F(SweepTest, TheCommandLineHasTheLastWord) {
       read_sweep(path, {"sweep.replicates=5", "each.material.horizon=[2.5]", "material.rupture_delay=1.3"});
   EXPECT_EQ(made.keys.replicates, 5);
   ASSERT_EQ(made.cases.size(), 1U);
-  const Design& design = DesignFile::from_toml(made.cases[0].design_toml, "case").design();
-  EXPECT_EQ(design.solver.material.horizon, 2.5);
-  EXPECT_EQ(design.solver.material.rupture_delay, 1.3);
+  const DesignFile design = DesignFile::from_toml(made.cases[0].design_toml, "case");
+  EXPECT_EQ(design.design().solver.material.horizon, 2.5);
+  EXPECT_EQ(design.design().solver.material.rupture_delay, 1.3);
 }
 
 TEST_F(SweepTest, SaysWhatIsWrong) {
