@@ -24,8 +24,7 @@ struct CalibrateFlags {
 
 int calibrate(const CalibrateFlags& flags) {
   flags.common.apply();
-  if (flags.resume && flags.common.force)
-    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+  refuse_resume_with_force(flags.resume, flags.common.force);
   const optimize::Calibration calibration = optimize::read_calibration(flags.file, flags.common.overrides());
   log_warnings(calibration.warnings);
   ProgressLine progress("calibration", flags.common.quiet);

@@ -187,4 +187,9 @@ void log_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) io::log_warning(warning);
 }
 
+void refuse_resume_with_force(bool resume, bool force) {
+  if (resume && force)
+    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+}
+
 }  // namespace perfora::app

@@ -77,6 +77,9 @@ class ProgressLine {
   std::unique_ptr<io::Progress> progress_;
 };
 
+/// Throws io::InputError when both are given.
+void refuse_resume_with_force(bool resume, bool force);
+
 /// The output path: `given`, or `fallback` in the current folder, announced on standard error.
 std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback);
 /// Refuses an output that exists unless `force`, and a folder that is missing or not writable. For outputs that cannot

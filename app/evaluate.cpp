@@ -217,8 +217,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
-    if (flags->resume && flags->common.force)
-      throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+    refuse_resume_with_force(flags->resume, flags->common.force);
     if (flags->elastic) {
       exit_code = evaluate_elastic(*flags);
       return;

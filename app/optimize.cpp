@@ -199,8 +199,7 @@ void print_result(const OptimizeFlags& flags, optimize::StudyRun& run) {
 }
 
 int optimize_study(const OptimizeFlags& flags) {
-  if (flags.resume && flags.common.force)
-    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+  refuse_resume_with_force(flags.resume, flags.common.force);
   optimize::Study study = optimize::read_study(flags.study, flags.common.overrides());
   const optimize::WorkOptions options = run_options(flags, study);
   optimize::StudyRun run(std::move(study), options);

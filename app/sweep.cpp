@@ -51,18 +51,14 @@ int place_of(std::vector<std::string>& list, const std::string& text) {
 
 report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one) {
   report::SweepPoint point;
-  for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-    const optimize::Evaluation* evaluation = run.known(one, replicate);
-    if (evaluation && evaluation->status == solver::RunStatus::completed)
-      point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
-  }
+  std::vector<const optimize::Evaluation*> completed;
+  for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate)
+    if (const optimize::Evaluation* evaluation = run.completed(one, replicate)) completed.push_back(evaluation);
+  for (const auto* evaluation : completed)
+    point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
   for (const std::string& name : run.sweep().measures) {
     report::SweepValue value;
-    for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-      const optimize::Evaluation* evaluation = run.known(one, replicate);
-      if (evaluation && evaluation->status == solver::RunStatus::completed)
-        value.replicates.push_back(optimize::measure_of(*evaluation, name));
-    }
+    for (const auto* evaluation : completed) value.replicates.push_back(optimize::measure_of(*evaluation, name));
     const optimize::Statistic statistic = optimize::statistic_of(name, value.replicates);
     value.mean = statistic.mean;
     value.half_interval = statistic.confidence_95;
@@ -81,7 +77,7 @@ Names names_of(const Sweep& sweep, const SweepCase& one) {
   for (const optimize::SweepSetting& setting : one.settings) {
     if (setting.key != sweep.grid_key) continue;
     const std::string place = optimize::readable(setting.value);
-    const std::string part = setting.key.substr(setting.key.find('.') + 1) + " " + place;
+    const std::string part = optimize::after_section(setting.key) + " " + place;
     std::string series = one.label;
     if (const auto at = series.rfind(part); at != std::string::npos) {
       const std::size_t before = at >= 2 ? at - 2 : 0;  // with the comma before it, or behind it where it comes first
@@ -183,8 +179,7 @@ bool draw_collapse(const optimize::SweepRun& run) {
 }
 
 int sweep_designs(const SweepFlags& flags) {
-  if (flags.resume && flags.common.force)
-    throw io::InputError({"--resume", 0, ""}, "--resume and --force exclude each other", "", "give only one of them");
+  refuse_resume_with_force(flags.resume, flags.common.force);
   Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides());
   const optimize::WorkOptions options = run_options(flags, sweep);
   optimize::SweepRun run(std::move(sweep), options);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "io/journal.h"
 
@@ -27,6 +28,12 @@ std::string duration(double seconds) {
 }
 
 }  // namespace
+
+int workers_for(int asked, int of_file, std::int64_t together) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : cores;
+  return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
+}
 
 solver::History coarse_curve(const solver::History& history) {
   solver::History coarse;

@@ -91,6 +91,10 @@ class EvaluationQueue {
   int workers_ = 1;
 };
 
+/// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
+/// be under way together.
+int workers_for(int asked, int of_file, std::int64_t together);
+
 /// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
 /// 3 %. What the journal keeps.
 solver::History coarse_curve(const solver::History& history);

@@ -52,9 +52,6 @@ void describe(io::Schema& schema, StudyKeys& keys) {
 std::string section_of(std::string_view key) {
   return std::string(key.substr(0, key.find('.')));
 }
-std::string after_section(const std::string& key) {
-  return key.substr(key.find('.') + 1);
-}
 
 bool belongs_to_study(const std::string& override_text) {
   static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms", "set"};
@@ -274,6 +271,14 @@ std::string readable(double value, io::Dimension dimension) {
     default:
       return fmt::format("{:.5g}", value);
   }
+}
+
+std::string readable_stress(double stress) {
+  return std::isfinite(stress) ? readable(stress, io::Dimension::stress) : "none";
+}
+
+std::string after_section(const std::string& key) {
+  return key.substr(key.find('.') + 1);
 }
 
 std::string readable(const io::Value& value) {

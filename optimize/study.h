@@ -109,6 +109,10 @@ std::string value_text(const io::Value& value);
 
 /// "16.2 mm", "0.25": a value of a key as people read it.
 std::string readable(double value, io::Dimension dimension);
+/// The same of a stress in Pa; "none" where it was not reached.
+std::string readable_stress(double stress);
+/// "diameter" of "layout.diameter".
+std::string after_section(const std::string& key);
 /// A value as it was written, with as few digits as tell it.
 std::string readable(const io::Value& value);
 

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <set>
-#include <thread>
 
 #include "io/progress.h"
 #include "optimize/work_folder.h"
@@ -67,17 +66,11 @@ void check_same_study(const json& there, const json& here, const std::filesystem
   }
 }
 
-std::string stress_text(double stress) {
-  return std::isfinite(stress) ? readable(stress, io::Dimension::stress) : "none";
-}
-
 }  // namespace
 
 int useful_workers(const Study& study, int asked) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int wanted = asked > 0 ? asked : study.keys.workers > 0 ? study.keys.workers : cores;
   const std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * study.keys.replicates;
-  return static_cast<int>(std::clamp<std::int64_t>(parallel, 1, wanted));
+  return workers_for(asked, study.keys.workers, parallel);
 }
 
 StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)), driver_(study_) {
@@ -115,7 +108,7 @@ std::int64_t StudyRun::most_evaluations() const {
 void StudyRun::say(const Asked& asked, const Evaluation& evaluation) {
   const Candidate& candidate = *candidates_.at(asked.key);
   const auto all = known(candidate, 0, study_.keys.replicates);
-  std::string what = usable(evaluation) ? "plateau " + stress_text(evaluation.summary.plateau_stress)
+  std::string what = usable(evaluation) ? "plateau " + readable_stress(evaluation.summary.plateau_stress)
                                         : "failed: " + (evaluation.reason.empty() ? "no plateau" : evaluation.reason);
   const bool final_stage = asked.request.replicate >= study_.keys.replicates;
   if (!final_stage && static_cast<int>(all.size()) == study_.keys.replicates) {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <thread>
 
+#include "optimize/evaluation_queue.h"
 #include "optimize/study.h"
 
 namespace perfora::optimize {
@@ -36,10 +36,6 @@ void describe(io::Schema& schema, SweepKeys& keys) {
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
   return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
-}
-
-std::string after_section(const std::string& key) {
-  return key.substr(key.find('.') + 1);
 }
 
 /// The values of one key.
@@ -290,9 +286,7 @@ struct Reader {
 }  // namespace
 
 int Sweep::workers(int asked) const {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int wanted = asked > 0 ? asked : keys.workers > 0 ? keys.workers : cores;
-  return static_cast<int>(std::clamp<std::int64_t>(runs(), 1, wanted));
+  return workers_for(asked, keys.workers, runs());
 }
 
 std::int64_t Sweep::runs() const {

@@ -61,11 +61,6 @@ json statistics_json(const std::vector<Statistic>& statistics) {
   return object;
 }
 
-const Evaluation* completed(const SweepRun& run, const SweepCase& one, int replicate) {
-  const Evaluation* evaluation = run.known(one, replicate);
-  return evaluation && evaluation->status == solver::RunStatus::completed ? evaluation : nullptr;
-}
-
 }  // namespace
 
 CaseResult case_result(const SweepRun& run, const SweepCase& one) {
@@ -74,18 +69,18 @@ CaseResult case_result(const SweepRun& run, const SweepCase& one) {
   for (const std::string& name : sweep_measures()) {
     std::vector<double> values, changes;
     for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-      const Evaluation* evaluation = completed(run, one, replicate);
+      const Evaluation* evaluation = run.completed(one, replicate);
       if (!evaluation) continue;
       values.push_back(measure_of(*evaluation, name));
-      const Evaluation* base = compared ? completed(run, run.sweep().cases.front(), replicate) : nullptr;
+      const Evaluation* base = compared ? run.completed(run.sweep().cases.front(), replicate) : nullptr;
       if (base) changes.push_back(values.back() - measure_of(*base, name));
     }
     result.statistics.push_back(statistic_of(name, values));
     if (compared) result.changes.push_back(statistic_of(name, changes));
   }
   for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-    result.completed += completed(run, one, replicate) != nullptr;
-    result.failed += run.known(one, replicate) && !completed(run, one, replicate);
+    result.completed += run.completed(one, replicate) != nullptr;
+    result.failed += run.known(one, replicate) && !run.completed(one, replicate);
   }
   return result;
 }
@@ -164,7 +159,7 @@ std::string curves_csv(const SweepRun& run) {
   std::string text = "case,replicate,strain_yy,stress_yy\n";
   for (const SweepCase& one : run.sweep().cases)
     for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-      const Evaluation* evaluation = completed(run, one, replicate);
+      const Evaluation* evaluation = run.completed(one, replicate);
       if (!evaluation) continue;
       const solver::History& curve = evaluation->curve;
       for (std::size_t k = 0; k < curve.rows(); ++k)

@@ -20,10 +20,6 @@ using nlohmann::json;
 constexpr const char* own_files[] = {"journal.jsonl", "result.json", "cases.csv",    "runs.csv",
                                      "curves.csv",    "sweep.png",   "collapse.png", "runs"};
 
-std::string stress_text(double stress) {
-  return std::isfinite(stress) ? readable(stress, io::Dimension::stress) : "none";
-}
-
 }  // namespace
 
 SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) {
@@ -56,6 +52,11 @@ const Evaluation* SweepRun::known(const SweepCase& one, int replicate) const {
   return found == queue_->answers().end() ? nullptr : &found->second;
 }
 
+const Evaluation* SweepRun::completed(const SweepCase& one, int replicate) const {
+  const Evaluation* evaluation = known(one, replicate);
+  return evaluation && evaluation->status == solver::RunStatus::completed ? evaluation : nullptr;
+}
+
 std::vector<Asked> SweepRun::wanted() const {
   std::vector<Asked> asked;
   std::set<std::string> seen;  // Cases that come to the same design are one run.
@@ -66,18 +67,14 @@ std::vector<Asked> SweepRun::wanted() const {
   return asked;
 }
 
-std::int64_t SweepRun::known_runs() const {
-  return sweep_.runs() - static_cast<std::int64_t>(wanted().size());
-}
-
 void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
   const auto& summary = evaluation.summary;
   const std::string what = evaluation.status == solver::RunStatus::completed
-                               ? fmt::format("first peak {}, plateau {}", stress_text(summary.first_peak_stress),
-                                             stress_text(summary.plateau_stress))
+                               ? fmt::format("first peak {}, plateau {}", readable_stress(summary.first_peak_stress),
+                                             readable_stress(summary.plateau_stress))
                                : "failed: " + evaluation.reason;
   const auto left = static_cast<std::int64_t>(wanted().size());
-  io::log_info(fmt::format("run {} of {}: {}, replicate {}: {}{}", known_runs(), sweep_.runs(), asked.label,
+  io::log_info(fmt::format("run {} of {}: {}, replicate {}: {}{}", sweep_.runs() - left, sweep_.runs(), asked.label,
                            asked.request.replicate, what, queue_->time_left(left)));
 }
 
@@ -85,16 +82,14 @@ void SweepRun::run() {
   const auto begin = std::chrono::steady_clock::now();
   const bool done = queue_->run([this] { return wanted(); },
                                 [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
-  std::set<std::string> completed;  // by key: cases that come to the same design are one run
+  std::set<std::string> reached;  // by key: cases that come to the same design are one run
   for (const SweepCase& one : sweep_.cases)
-    for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate) {
-      const Evaluation* evaluation = known(one, replicate);
-      if (evaluation && evaluation->status == solver::RunStatus::completed) completed.insert(key_of(one, replicate));
-    }
-  status_ = !done                ? solver::RunStatus::stopped
-            : !completed.empty() ? solver::RunStatus::completed
-                                 : solver::RunStatus::failed;
-  reason_ = done ? fmt::format("{} of {} runs completed", completed.size(), sweep_.runs())
+    for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
+      if (completed(one, replicate)) reached.insert(key_of(one, replicate));
+  status_ = !done              ? solver::RunStatus::stopped
+            : !reached.empty() ? solver::RunStatus::completed
+                               : solver::RunStatus::failed;
+  reason_ = done ? fmt::format("{} of {} runs completed", reached.size(), sweep_.runs())
                  : "stopped by a signal; go on with --resume";
   queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -29,6 +29,8 @@ class SweepRun {
   std::string reason() const { return reason_; }
   /// The evaluation of one run; nullptr while it is not known.
   const Evaluation* known(const SweepCase& one, int replicate) const;
+  /// The same of a run that reached its strain; nullptr otherwise.
+  const Evaluation* completed(const SweepCase& one, int replicate) const;
   double seconds() const { return seconds_; }  ///< wall time of this call of run()
   double simulated_seconds() const { return queue_->simulated_seconds(); }
   int retries() const { return queue_->retries(); }
@@ -37,7 +39,6 @@ class SweepRun {
   std::vector<Asked> wanted() const;
   void say(const Asked& asked, const Evaluation& evaluation);
   const std::string& key_of(const SweepCase& one, int replicate) const;
-  std::int64_t known_runs() const;
 
   Sweep sweep_;
   std::unique_ptr<EvaluationQueue> queue_;
