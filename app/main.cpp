@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   app::add_calibrate(program, exit_code);
   app::add_optimize(program, exit_code);
   app::add_sweep(program, exit_code);
+  app::add_correlate(program, exit_code);
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);
   app::add_plot(program, exit_code);

@@ -12,6 +12,8 @@ set(search_sources
   evaluation_queue.cpp
   study_run.cpp
   study_result.cpp
+  rank_correlation.cpp
   sweep.cpp
+  sweep_record.cpp
   sweep_run.cpp
   sweep_result.cpp)

@@ -142,20 +142,7 @@ struct Reader {
 
   void check_measures() {
     constexpr std::size_t most_drawn = 4;
-    std::string rest = sweep.keys.measures;
-    while (!trimmed(rest).empty()) {
-      const auto comma = rest.find(',');
-      const std::string name = trimmed(rest.substr(0, comma));
-      rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
-      const auto& known = sweep_measures();
-      if (std::find(known.begin(), known.end(), name) == known.end()) {
-        const std::string nearest = io::nearest_name(name, known);
-        throw io::InputError(schema.origin("sweep.measures"), fmt::format("there is no result \"{}\"", name),
-                             fmt::format("{}", fmt::join(known, ", ")),
-                             nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
-      }
-      sweep.measures.push_back(name);
-    }
+    sweep.measures = measures_in(sweep.keys.measures, schema.origin("sweep.measures"));
     if (sweep.measures.empty() || sweep.measures.size() > most_drawn)
       throw io::InputError(
           schema.origin("sweep.measures"),
@@ -319,6 +306,25 @@ const std::vector<std::string>& sweep_measures() {
       if (entry.value().is_number()) found.push_back(entry.key());
     return found;
   }();
+  return names;
+}
+
+std::vector<std::string> measures_in(const std::string& list, const io::Origin& origin) {
+  std::vector<std::string> names;
+  const auto& known = sweep_measures();
+  std::string rest = list;
+  while (!trimmed(rest).empty()) {
+    const auto comma = rest.find(',');
+    const std::string name = trimmed(rest.substr(0, comma));
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string nearest = io::nearest_name(name, known);
+      throw io::InputError(origin, fmt::format("there is no result \"{}\"", name),
+                           fmt::format("{}", fmt::join(known, ", ")),
+                           nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
+    }
+    names.push_back(name);
+  }
   return names;
 }
 

@@ -68,6 +68,8 @@ std::string sweep_reference();
 
 /// Numbers of an evaluation that a sweep can show, by their names in --json.
 const std::vector<std::string>& sweep_measures();
+/// The names in "first_peak_stress, undulation". Throws io::InputError at `origin` for one that sweep_measures() lacks.
+std::vector<std::string> measures_in(const std::string& list, const io::Origin& origin);
 /// NaN where it was not reached. `name` is one of sweep_measures().
 double measure_of(const Evaluation& evaluation, const std::string& name);
 

@@ -9,6 +9,7 @@
 
 #include "report/canvas.h"
 #include "report/chart.h"
+#include "report/measure_unit.h"
 
 namespace perfora::report {
 namespace {
@@ -24,21 +25,6 @@ constexpr double measures_left = 706.0, measure_gap = 108.0;
 /// The stress axis spans at most this ratio: below it there is dust.
 constexpr double stress_decades = 1000.0;
 constexpr double logarithmic_ratio = 20.0;
-
-/// What a result is drawn as, by the end of its name.
-struct Unit {
-  double scale;
-  std::string label;
-};
-Unit unit_of(const std::string& measure) {
-  std::string name = measure;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  const auto ends = [&](const char* end) { return name.ends_with(end); };
-  if (ends(" stress") || ends(" stress in window")) return {1e-3, name + " (kPa)"};
-  if (ends(" strain")) return {100.0, name + " (%)"};
-  if (name == "energy absorbed") return {1e-3, name + " (kJ/m3)"};
-  return {1.0, name};
-}
 
 /// From blue over green to red: the order of the values.
 Colour ramp(std::size_t place, std::size_t count) {
@@ -58,7 +44,7 @@ Colour colour_of(const SweepGroup& group, const SweepPoint& point, bool curve) {
 }
 
 Axis measure_axis(const SweepPicture& picture, const SweepGroup& group, std::size_t measure) {
-  const Unit unit = unit_of(picture.measures[measure]);
+  const MeasureUnit unit = measure_unit(picture.measures[measure]);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto* points : {&group.points, &picture.base})
     for (const SweepPoint& point : *points)
@@ -97,7 +83,7 @@ void draw_point(Canvas& canvas, const Chart& chart, double place, const SweepVal
 
 void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, std::size_t measure,
                   const Box& box) {
-  const double scale = unit_of(picture.measures[measure]).scale;
+  const double scale = measure_unit(picture.measures[measure]).scale;
   Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
   x.choices = group.places;
   Chart chart(canvas, box, x, measure_axis(picture, group, measure));

@@ -73,7 +73,7 @@ class CommandLine : public ::testing::Test {
 
 TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
   for (const std::string command :
-       {"", "pack", "evaluate", "optimize", "sweep", "test", "calibrate", "check", "show", "plot"}) {
+       {"", "pack", "evaluate", "optimize", "sweep", "correlate", "test", "calibrate", "check", "show", "plot"}) {
     const Outcome help = run(command + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.error, "") << command;
@@ -270,6 +270,12 @@ TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   EXPECT_EQ(json::parse(grown.output)["cases"].size(), 4u);
   EXPECT_THAT(grown.error, HasSubstr("run 8 of 8"));
   EXPECT_THAT(grown.error, ::testing::Not(HasSubstr("run 6 of 8")));
+  const Outcome itself = run("correlate out out --only horizon -o c.png --json");
+  ASSERT_EQ(itself.exit_code, 0) << itself.error;
+  EXPECT_EQ(json::parse(itself.output)["sweeps"][0]["measures"]["plateau_stress"]["rank_correlation"], 1.0);
+  EXPECT_TRUE(fs::exists(folder_ / "c.png"));
+  EXPECT_EQ(run("correlate out d.toml").exit_code, 1);
+  EXPECT_THAT(run("correlate out out --measures plateau_stres").error, HasSubstr("did you mean plateau_stress"));
 }
 
 TEST_F(CommandLine, QuietLeavesResultsAndWarnings) {

@@ -12,6 +12,7 @@ perfora_add_test(test_search
     test_executor.cpp
     test_study_run.cpp
     test_sweep.cpp
+    test_rank_correlation.cpp
   LIBRARIES Perfora::optimize fmt::fmt PkgConfig::nlopt
   LABELS unit
   TIMEOUT 120)

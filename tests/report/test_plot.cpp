@@ -12,6 +12,7 @@
 #include "report/block_picture.h"
 #include "report/chart.h"
 #include "report/plot.h"
+#include "report/plot_correlation.h"
 #include "report/plot_study.h"
 #include "report/plot_sweep.h"
 #include "report/search_panel.h"
@@ -277,6 +278,27 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   EXPECT_GT(high, 0.0);
   EXPECT_GT(low, high);
   EXPECT_THROW(plot_sweep(picture, folder / "full.gif"), io::InputError);
+}
+
+// Two cases on the diagonal: the one with the larger result stands higher, and as far right of the other as above it.
+TEST(Correlation, DrawsAPointACase) {
+  const auto folder = fresh_folder("correlation");
+  plot_correlation({}, folder / "empty.png");
+  CorrelationPicture picture;
+  picture.reference = "dear";
+  const auto draw = [&](double x, double y) {
+    CorrelationPanel panel{
+        "plateau_stress", "rank correlation", {{"low", 1e4, 0.0, 1e4, 0.0}, {"high", x, 1e3, y, NAN}}};
+    panel.points.push_back({"unknown", NAN, NAN, 3e4, 1e3});
+    picture.rows = {{"cheap", {panel}}};
+    plot_correlation(picture, folder / "c.png");
+    return Image(folder / "c.png").height();
+  };
+  EXPECT_GT(draw(6e4, 6e4), 500);
+  const double level = mean_row(Image(folder / "c.png"), 0x0072b2, 100);
+  draw(6e4, 1e4);
+  EXPECT_GT(mean_row(Image(folder / "c.png"), 0x0072b2, 100), level) << "the second point has come down";
+  EXPECT_THROW(plot_correlation(picture, folder / "c.gif"), io::InputError);
 }
 
 // Two rows of every frame; the page is as high as both need and shows what stands in the file.

@@ -1,0 +1,121 @@
+// What is here: `perfora correlate`: do cheap sweeps rank the same cases as a dear one does? What is not: the
+// comparison (optimize/sweep_record.h), drawing (report/).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "optimize/sweep.h"
+#include "optimize/sweep_record.h"
+#include "report/plot_correlation.h"
+
+namespace perfora::app {
+
+namespace {
+
+using optimize::ComparedMeasure;
+using optimize::SweepRecord;
+
+struct CorrelateFlags {
+  CommonFlags common;
+  std::string reference, measures = "first_peak_stress, plateau_stress, undulation", only, output;
+  std::vector<std::string> sweeps;
+};
+
+struct Comparison {
+  SweepRecord sweep;
+  std::vector<ComparedMeasure> measures;
+};
+
+std::string interval_text(const optimize::RankCorrelation& correlation) {
+  if (!std::isfinite(correlation.coefficient)) return "not defined";
+  if (!std::isfinite(correlation.low)) return fmt::format("{:.2f}", correlation.coefficient);
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", correlation.coefficient, correlation.low, correlation.high);
+}
+
+std::string table_text(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
+  std::string text;
+  for (const Comparison& one : comparisons) {
+    text += fmt::format("{} against {}\n  {:<28}{:<30}{:>6}{:>22}\n", one.sweep.name, reference.name, "result",
+                        "rank correlation (95 %)", "cases", "median of their ratio");
+    for (const ComparedMeasure& measure : one.measures)
+      text += fmt::format("  {:<28}{:<30}{:>6}{:>22.3g}\n", measure.measure, interval_text(measure.correlation),
+                          measure.correlation.count, measure.median_ratio);
+  }
+  return text;
+}
+
+report::CorrelationPicture picture_of(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
+  report::CorrelationPicture picture;
+  picture.title = "How sweeps rank the cases of " + reference.name;
+  picture.subtitle =
+      "Means over replicates with their 95 % intervals; on the dashed line both agree in size, on any rising curve in "
+      "rank";
+  picture.reference = reference.name;
+  for (const Comparison& one : comparisons) {
+    auto& row = picture.rows.emplace_back();
+    row.sweep = one.sweep.name;
+    for (const ComparedMeasure& measure : one.measures) {
+      auto& panel = row.panels.emplace_back();
+      panel.measure = measure.measure;
+      panel.caption =
+          fmt::format("rank correlation {}, {} cases", interval_text(measure.correlation), measure.correlation.count);
+      for (std::size_t k = 0; k < measure.labels.size(); ++k)
+        panel.points.push_back({measure.labels[k], measure.other[k].mean, measure.other[k].half_interval,
+                                measure.reference[k].mean, measure.reference[k].half_interval});
+    }
+  }
+  return picture;
+}
+
+int correlate(const CorrelateFlags& flags) {
+  remove_stop_handlers();
+  const auto measures = optimize::measures_in(flags.measures, {"--measures", 0, ""});
+  if (!flags.output.empty()) check_new_output(flags.output, flags.common.force);
+  const SweepRecord reference = optimize::read_sweep_record(flags.reference);
+  std::vector<Comparison> comparisons;
+  nlohmann::json entries = nlohmann::json::array();
+  for (const std::string& path : flags.sweeps) {
+    Comparison one{optimize::read_sweep_record(path), {}};
+    one.measures = optimize::compare_sweeps(reference, one.sweep, measures, flags.only);
+    entries.push_back(optimize::to_json(one.sweep, one.measures));
+    comparisons.push_back(std::move(one));
+  }
+  if (!flags.output.empty()) report::plot_correlation(picture_of(reference, comparisons), flags.output);
+  if (flags.common.json)
+    print_json({{"schema", "perfora.correlate/1"},
+                {"status", "completed"},
+                {"reason", ""},
+                {"reference", reference.name},
+                {"only", flags.only},
+                {"sweeps", entries}});
+  else
+    print_text(table_text(reference, comparisons));
+  if (!flags.output.empty()) io::log_info("written: " + flags.output);
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_correlate(CLI::App& program, int& exit_code) {
+  auto flags = std::make_shared<CorrelateFlags>();
+  CLI::App* command =
+      program.add_subcommand("correlate", "Compare how sweeps rank the cases they share: what may a cheap one decide?");
+  command->add_option("REFERENCE", flags->reference, "Folder of the sweep to trust (the dear one)")->required();
+  command->add_option("SWEEPS", flags->sweeps, "Folders of the sweeps compared with it; cases meet by their labels")
+      ->required();
+  command->add_option("--measures", flags->measures, "Results to compare, by their names in cases.csv")
+      ->type_name("NAMES")
+      ->capture_default_str();
+  command->add_option("--only", flags->only, "Only cases that have TEXT in their label")->type_name("TEXT");
+  command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: none)");
+  add_common_flags(*command, flags->common, Uses::files_only);
+  command->callback([flags, &exit_code] {
+    flags->common.apply();
+    exit_code = correlate(*flags);
+  });
+}
+
+}  // namespace perfora::app
