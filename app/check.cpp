@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <set>
+
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/summary_text.h"
+#include "app/workers.h"
 #include "io/schema.h"
 #include "optimize/calibration.h"
 #include "optimize/estimate.h"
@@ -21,6 +24,7 @@ using nlohmann::json;
 struct CheckFlags {
   CommonFlags common;
   std::string file;
+  int workers = 0;
 };
 
 std::string line(const std::string& label, const std::string& value) {
@@ -127,16 +131,24 @@ int check_sweep(const CheckFlags& flags) {
   json cases = json::array();
   std::string text = "Sweep\n";
   double seconds = 0.0;
+  std::set<std::string> designs;
   for (const optimize::SweepCase& one : sweep.cases) {
     cases.push_back({{"case", one.number}, {"label", one.label}, {"problem", one.problem}});
-    text += line(fmt::format("case {}", one.number), one.label + (one.problem.empty() ? "" : " (cannot be run)"));
-    if (!one.problem.empty()) continue;
+    const std::string name = fmt::format("case {}", one.number);
+    if (!one.problem.empty()) {
+      text += line(name, one.label + " (cannot be run)");
+      continue;
+    }
     const auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
-    seconds += optimize::estimate_design(design, 1).seconds * sweep.keys.replicates;
+    const double each = optimize::estimate_design(design, 1).seconds;
+    const bool counted = !designs.insert(one.design_toml).second;
+    text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : duration_text(each)));
+    if (!counted) seconds += each * sweep.keys.replicates;
   }
-  seconds /= sweep.workers(0);
+  const int workers = sweep.workers(flags.workers);
+  seconds /= workers;
   text += line("simulations", with_thousands(static_cast<double>(sweep.runs())));
-  text += line(fmt::format("time with {} at once, roughly", sweep.workers(0)), duration_text(seconds));
+  text += line(fmt::format("time with {} at once, roughly", workers), duration_text(seconds));
   const json object = {{"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}};
   return report(flags, "sweep", object, text, *sweep.start, sweep.warnings);
 }
@@ -176,6 +188,7 @@ void add_check(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("check", "Say what a design, study, sweep or calibration would run, without running it");
   command->add_option("FILE", flags->file, "Design, study, sweep or calibration file (TOML)")->required();
+  add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();

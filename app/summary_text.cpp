@@ -7,6 +7,8 @@
 #include <cmath>
 #include <span>
 
+#include "app/sweep_text.h"
+
 namespace perfora::app {
 
 namespace {
@@ -356,7 +358,7 @@ std::string summary_text(const json& object) {
   const std::string schema = object.value("schema", "");
   std::string text = head_text(object);
   if (schema == "perfora.optimize/1") return text + optimize_text(object) + performance_text(object);
-  if (schema == "perfora.sweep/1") return text + performance_text(object);
+  if (schema == "perfora.sweep/1") return text + performance_text(object) + sweep_table_text(object);
   if (schema == "perfora.ensemble/1") return text + statistics_text(object.at("statistics"));
   if (schema == "perfora.calibrate/1") return text + calibrate_text(object) + performance_text(object);
   if (schema == "perfora.test/1") return text + material_text(object.at("material")) + performance_text(object);

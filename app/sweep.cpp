@@ -51,14 +51,17 @@ int place_of(std::vector<std::string>& list, const std::string& text) {
 
 report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one) {
   report::SweepPoint point;
-  std::vector<const optimize::Evaluation*> completed;
+  std::vector<std::vector<double>> reached;  // by replicate
   for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate)
-    if (const optimize::Evaluation* evaluation = run.completed(one, replicate)) completed.push_back(evaluation);
-  for (const auto* evaluation : completed)
-    point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
+    if (const optimize::Evaluation* evaluation = run.completed(one, replicate)) {
+      point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
+      reached.push_back(optimize::measures_of(*evaluation));
+    }
+  const auto& names = optimize::sweep_measures();
   for (const std::string& name : run.sweep().measures) {
+    const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     report::SweepValue value;
-    for (const auto* evaluation : completed) value.replicates.push_back(optimize::measure_of(*evaluation, name));
+    for (const std::vector<double>& all : reached) value.replicates.push_back(all[place]);
     const optimize::Statistic statistic = optimize::statistic_of(name, value.replicates);
     value.mean = statistic.mean;
     value.half_interval = statistic.confidence_95;
@@ -117,52 +120,6 @@ report::SweepPicture picture_of(const optimize::SweepRun& run) {
   return picture;
 }
 
-/// One result as people read it, with half of its 95 % interval, and its change to case 0 in per cent of that.
-std::string value_text(const std::string& name, const optimize::Statistic& statistic,
-                       const optimize::Statistic* change) {
-  if (!std::isfinite(statistic.mean)) return "-";
-  const bool stress = name.ends_with("_stress") || name.ends_with("_in_window");
-  const bool share = name.ends_with("_strain");
-  const double scale = stress ? 1e-3 : share ? 100.0 : 1.0;
-  const char* unit = stress ? " kPa" : share ? " %" : "";
-  const std::string half = std::isfinite(statistic.confidence_95)
-                               ? fmt::format(" +- {:.2g}", scale * statistic.confidence_95)
-                               : std::string();
-  std::string text = fmt::format("{:.4g}{}{}", scale * statistic.mean, half, unit);
-  if (change && std::isfinite(change->mean) && statistic.mean != change->mean)
-    text += fmt::format(" ({:+.3g} %)", 100.0 * change->mean / (statistic.mean - change->mean));
-  return text;
-}
-
-/// A line a case: number, label, runs, the results of the picture.
-std::string table_text(const optimize::SweepRun& run) {
-  constexpr std::size_t widest_label = 44;
-  const Sweep& sweep = run.sweep();
-  std::size_t label_width = 5;
-  for (const SweepCase& one : sweep.cases)
-    label_width = std::max(label_width, std::min(one.label.size(), widest_label));
-  std::string text = fmt::format("{:>4}  {:<{}}  {:>4}", "case", "label", label_width, "runs");
-  for (const std::string& name : sweep.measures) text += fmt::format("  {:>28}", name);
-  text += "\n";
-  for (const SweepCase& one : sweep.cases) {
-    text += fmt::format("{:>4}  {:<{}}  ", one.number, one.label.substr(0, widest_label), label_width);
-    if (!one.problem.empty()) {
-      text += "cannot be run\n";
-      continue;
-    }
-    const optimize::CaseResult result = optimize::case_result(run, one);
-    text += fmt::format("{:>4}", result.completed);
-    for (const std::string& name : sweep.measures)
-      for (std::size_t k = 0; k < result.statistics.size(); ++k)
-        if (result.statistics[k].name == name)
-          text += fmt::format("  {:>28}", value_text(name, result.statistics[k],
-                                                     result.changes.empty() ? nullptr : &result.changes[k]));
-    text += result.failed > 0 ? fmt::format("  {} failed\n", result.failed) : "\n";
-  }
-  text += "+- half of the 95 % interval of the mean";
-  return text + (sweep.keys.base ? "; in brackets the change to case 0\n" : "\n");
-}
-
 /// collapse.png: the first replicate of every case whose run file was kept.
 bool draw_collapse(const optimize::SweepRun& run) {
   std::vector<report::CollapseRow> rows;
@@ -195,7 +152,7 @@ int sweep_designs(const SweepFlags& flags) {
   if (flags.common.json)
     print_json(record);
   else
-    print_text(summary_text(record) + table_text(run));
+    print_text(summary_text(record));
   if (run.status() == solver::RunStatus::stopped)
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));

@@ -45,6 +45,46 @@ struct Axis {
   int line = 0;
 };
 
+/// Warnings of the cases. Those that differ in their numbers only are one kind, told once.
+class CaseWarnings {
+ public:
+  void add(const std::string& text, const SweepCase& one) {
+    std::string words;
+    std::copy_if(text.begin(), text.end(), std::back_inserter(words),
+                 [](char c) { return (c < '0' || c > '9') && c != '.'; });
+    const auto known =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.words == words; });
+    if (known == kinds_.end()) {
+      kinds_.push_back({words, text, fmt::format("case {} ({})", one.number, one.label), 1, true});
+      return;
+    }
+    ++known->cases;
+    known->same = known->same && known->text == text;
+  }
+
+  /// A kind as it is where all `cases` have the same, else as that of the first case which has it.
+  std::vector<std::string> told(std::size_t cases) const {
+    std::vector<std::string> texts;
+    for (const Kind& kind : kinds_) {
+      const bool of_all = kind.same && kind.cases == cases;
+      std::string& text = texts.emplace_back(of_all ? kind.text : kind.first + ": " + kind.text);
+      if (!of_all && kind.cases > 1)
+        text +=
+            fmt::format("; {} more case{} a warning of this kind", kind.cases - 1, kind.cases == 2 ? " has" : "s have");
+    }
+    return texts;
+  }
+
+ private:
+  struct Kind {
+    std::string words;  ///< the text without its numbers
+    std::string text, first;
+    std::size_t cases = 0;
+    bool same = true;  ///< the same text in all of them
+  };
+  std::vector<Kind> kinds_;
+};
+
 struct Reader {
   std::filesystem::path path;
   Sweep sweep;
@@ -52,6 +92,7 @@ struct Reader {
   std::vector<io::Entry> fixed;        ///< [set]
   std::vector<Axis> rows, grid, each;  ///< [rows] without its names
   io::ValueList names;                 ///< of [rows]
+  CaseWarnings warnings;
 
   explicit Reader(const std::filesystem::path& file) : path(file) {
     describe(schema, sweep.keys);
@@ -224,17 +265,12 @@ struct Reader {
     }
     made.design_toml = design.schema().to_toml();
     try {
-      for (const std::string& warning : design.validate()) warn(warning);
+      for (const std::string& warning : design.validate()) warnings.add(warning, made);
     } catch (const io::InputError& error) {
       made.problem = error.what();
-      warn(fmt::format("case {} ({}) cannot be run: {}", made.number, made.label, made.problem));
+      sweep.warnings.push_back(fmt::format("case {} ({}) cannot be run: {}", made.number, made.label, made.problem));
     }
     sweep.cases.push_back(std::move(made));
-  }
-
-  void warn(const std::string& text) {
-    auto& warnings = sweep.warnings;
-    if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
   }
 
   /// All combinations of [grid] from axis `next` on, the last one fastest.
@@ -263,6 +299,8 @@ struct Reader {
     }
     for (const Axis& axis : each)
       for (const io::Value& value : axis.values) add({{axis.key, value}}, axis.key, "");
+    const std::vector<std::string> told = warnings.told(sweep.cases.size());
+    sweep.warnings.insert(sweep.warnings.end(), told.begin(), told.end());
     for (const SweepCase& one : sweep.cases)
       if (one.problem.empty()) return;
     throw io::InputError({path.string(), 0, ""}, "no case can be run; the first: " + sweep.cases.front().problem, "",
@@ -328,11 +366,16 @@ std::vector<std::string> measures_in(const std::string& list, const io::Origin& 
   return names;
 }
 
-double measure_of(const Evaluation& evaluation, const std::string& name) {
+std::vector<double> measures_of(const Evaluation& evaluation) {
   nlohmann::json record = to_json(evaluation.summary);
   record.update(to_json(evaluation.pack));
-  const nlohmann::json value = record.value(name, nlohmann::json());
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values;
+  for (const std::string& name : sweep_measures()) {
+    const auto found = record.find(name);
+    const bool known = found != record.end() && found->is_number();
+    values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
 }
 
 }  // namespace perfora::optimize

@@ -70,7 +70,7 @@ std::string sweep_reference();
 const std::vector<std::string>& sweep_measures();
 /// The names in "first_peak_stress, undulation". Throws io::InputError at `origin` for one that sweep_measures() lacks.
 std::vector<std::string> measures_in(const std::string& list, const io::Origin& origin);
-/// NaN where it was not reached. `name` is one of sweep_measures().
-double measure_of(const Evaluation& evaluation, const std::string& name);
+/// By the places of sweep_measures(); NaN where one was not reached.
+std::vector<double> measures_of(const Evaluation& evaluation);
 
 }  // namespace perfora::optimize

@@ -66,21 +66,23 @@ json statistics_json(const std::vector<Statistic>& statistics) {
 CaseResult case_result(const SweepRun& run, const SweepCase& one) {
   CaseResult result;
   const bool compared = run.sweep().keys.base && one.number != 0;
-  for (const std::string& name : sweep_measures()) {
-    std::vector<double> values, changes;
-    for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-      const Evaluation* evaluation = run.completed(one, replicate);
-      if (!evaluation) continue;
-      values.push_back(measure_of(*evaluation, name));
-      const Evaluation* base = compared ? run.completed(run.sweep().cases.front(), replicate) : nullptr;
-      if (base) changes.push_back(values.back() - measure_of(*base, name));
-    }
-    result.statistics.push_back(statistic_of(name, values));
-    if (compared) result.changes.push_back(statistic_of(name, changes));
-  }
+  const std::size_t count = sweep_measures().size();
+  std::vector<std::vector<double>> values(count), changes(count);  // by measure
   for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
-    result.completed += run.completed(one, replicate) != nullptr;
-    result.failed += run.known(one, replicate) && !run.completed(one, replicate);
+    const Evaluation* evaluation = run.completed(one, replicate);
+    result.failed += !evaluation && run.known(one, replicate);
+    if (!evaluation) continue;
+    ++result.completed;
+    const std::vector<double> reached = measures_of(*evaluation);
+    for (std::size_t k = 0; k < count; ++k) values[k].push_back(reached[k]);
+    const Evaluation* base = compared ? run.completed(run.sweep().cases.front(), replicate) : nullptr;
+    if (!base) continue;
+    const std::vector<double> of_base = measures_of(*base);
+    for (std::size_t k = 0; k < count; ++k) changes[k].push_back(reached[k] - of_base[k]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    result.statistics.push_back(statistic_of(sweep_measures()[k], values[k]));
+    if (compared) result.changes.push_back(statistic_of(sweep_measures()[k], changes[k]));
   }
   return result;
 }
@@ -108,6 +110,7 @@ json to_json(const SweepRun& run) {
           {"results_version", results_version},
           {"replicates", run.sweep().keys.replicates},
           {"runs", run.sweep().runs()},
+          {"measures", run.sweep().measures},
           {"cases", cases},
           {"performance",
            {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
@@ -146,7 +149,7 @@ std::string runs_csv(const SweepRun& run) {
       if (!evaluation) continue;
       text += case_columns(run, one) + fmt::format(",{},{},{},{}", replicate, solver::status_name(evaluation->status),
                                                    evaluation->seeds.packing, evaluation->seeds.noise);
-      for (const std::string& name : sweep_measures()) text += field(measure_of(*evaluation, name));
+      for (const double value : measures_of(*evaluation)) text += field(value);
       text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + ",";
       const auto file = EvaluationQueue::run_file(one.request(replicate).key());
       if (std::filesystem::exists(run.options().folder / file)) text += file.string();

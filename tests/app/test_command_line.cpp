@@ -270,6 +270,7 @@ TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   EXPECT_EQ(json::parse(grown.output)["cases"].size(), 4u);
   EXPECT_THAT(grown.error, HasSubstr("run 8 of 8"));
   EXPECT_THAT(grown.error, ::testing::Not(HasSubstr("run 6 of 8")));
+  EXPECT_THAT(run("show out").output, HasSubstr("horizon 2.8"));
   const Outcome itself = run("correlate out out --only horizon -o c.png --json");
   ASSERT_EQ(itself.exit_code, 0) << itself.error;
   EXPECT_EQ(json::parse(itself.output)["sweeps"][0]["measures"]["plateau_stress"]["rank_correlation"], 1.0);

@@ -69,6 +69,21 @@ class SweepTest : public testing::Test {
   }
 };
 
+// Walls of 15, 3, 2.5 and 2 mm at a pitch of 25 mm; two horizons are 6 x 0.5044 = 3.03 mm.
+TEST_F(SweepTest, TellsEachKindOfWarningOnce) {
+  const auto warnings = [&](const std::string& values) {
+    std::vector<std::string> walls;
+    for (const std::string& text : sweep(sweep_text("[each]\nlayout.diameter = [" + values + "]\n")).warnings)
+      if (text.find("the thinnest wall") != std::string::npos) walls.push_back(text);
+    return walls;
+  };
+  const auto thin = warnings("\"10 mm\", \"22 mm\", \"22.5 mm\", \"23 mm\"");
+  ASSERT_EQ(thin.size(), 1U);
+  EXPECT_TRUE(thin[0].starts_with("case 2 (diameter 22 mm): the thinnest wall")) << thin[0];
+  EXPECT_TRUE(thin[0].ends_with("; 2 more cases have a warning of this kind")) << thin[0];
+  EXPECT_TRUE(warnings("\"22 mm\"")[0].starts_with("the thinnest wall")) << "every case has it";
+}
+
 TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
   const Sweep made = sweep(sweep_text(
       "[set]\nmaterial.rupture_delay = 1.2\n[rows]\nname = [\"soft\", \"stiff\"]\nmaterial.normal_stiffness = [1e7, "
