@@ -60,6 +60,7 @@ struct Key {
   std::function<Value()> get;
 
   std::string full_name() const { return section + "." + name; }
+  bool at_default() const;  ///< the value is now what it was when the key was described
   /// Whether a study may vary it (a number).
   bool numeric() const { return type == KeyType::real || type == KeyType::integer; }
 };
@@ -134,6 +135,8 @@ class Schema {
 
   /// The complete resolved configuration as TOML text (SI numbers, 17 digits, every key).
   std::string to_toml() const;
+  /// The same without keys at their defaults: it stays as it is when the program learns a new key.
+  std::string changed_toml() const;
   /// The printed reference: a Markdown table a section.
   std::string reference() const;
 

@@ -70,12 +70,28 @@ std::string Range::text() const {
   return words;
 }
 
+bool Key::at_default() const {
+  return toml_literal(get(), Digits::shortest) == default_text;
+}
+
 std::string Schema::to_toml() const {
   std::string text;
   for (const auto& [section, help] : sections_) {
     text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
     for (const Key& key : keys_)
       if (key.section == section) text += fmt::format("{} = {}\n", key.name, toml_literal(key.get(), Digits::all_17));
+  }
+  return text;
+}
+
+std::string Schema::changed_toml() const {
+  std::string text;
+  for (const auto& [section, help] : sections_) {
+    std::string lines;
+    for (const Key& key : keys_)
+      if (key.section == section && !key.at_default())
+        lines += fmt::format("{} = {}\n", key.name, toml_literal(key.get(), Digits::all_17));
+    if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section, lines);
   }
   return text;
 }

@@ -121,8 +121,10 @@ struct Request {
   /// Where the run is written, and gone on with when it is there (finished or not) from the same instruction set;
   /// empty: nowhere. No part of the key.
   std::filesystem::path run_file = {};
-  bool frames = false;      ///< few frames in the run file; otherwise none. No part of the key
-  std::string key() const;  ///< hash over design, replicate, strain and results_version
+  bool frames = false;  ///< few frames in the run file; otherwise none. No part of the key
+  /// Hash over the design's keys that are not at their defaults, replicate, strain and results_version: a key that the
+  /// program learns later leaves it as it is.
+  std::string key() const;
 };
 nlohmann::json to_json(const Request& request);
 Request request_from_json(const nlohmann::json& record);

@@ -59,12 +59,15 @@ solver::History coarse_curve(const solver::History& history) {
 EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&)>& seen)
     : options_(std::move(options)) {
   journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
+  int version = 0;  // of the events that follow
   for (const std::string& text : journal_->events()) {
     const json record = json::parse(text);
-    if (record.value("event", "") == evaluation_event)
-      take_evaluation(record);
-    else
-      seen(record);
+    if (record.value("event", "") == evaluation_event) {
+      take_evaluation(record, version == results_version);
+      continue;
+    }
+    version = record.value("results_version", version);
+    seen(record);
   }
 }
 
@@ -74,8 +77,11 @@ void EvaluationQueue::note(const json& event) {
   journal_->append(event.dump());
 }
 
-void EvaluationQueue::take_evaluation(const json& record) {
-  answers_.insert_or_assign(record.at("key").get<std::string>(), evaluation_from_json(record.at("evaluation")));
+void EvaluationQueue::take_evaluation(const json& record, bool of_this_version) {
+  // An older program with the same results may have known fewer keys: what was asked then has the key of today.
+  const std::string key = of_this_version && record.contains("request") ? request_from_json(record.at("request")).key()
+                                                                        : record.at("key").get<std::string>();
+  answers_.insert_or_assign(key, evaluation_from_json(record.at("evaluation")));
   simulated_seconds_ += record.value("seconds", 0.0);
   retries_ += record.value("attempts", 1) - 1;
 }
@@ -91,7 +97,7 @@ void EvaluationQueue::record(const Asked& asked, Answer answer) {
                       {"seconds", answer.seconds}};
   const std::string text = event.dump();
   journal_->append(text);
-  take_evaluation(json::parse(text));  // The same way as on resume, so that both see the same numbers.
+  take_evaluation(json::parse(text), true);  // The same way as on resume, so that both see the same numbers.
 }
 
 std::string EvaluationQueue::time_left(std::int64_t remaining) const {

@@ -77,7 +77,7 @@ class EvaluationQueue {
   std::string time_left(std::int64_t remaining) const;
 
  private:
-  void take_evaluation(const nlohmann::json& record);
+  void take_evaluation(const nlohmann::json& record, bool of_this_version);
   void record(const Asked& asked, Answer answer);
   void submit(Executor& executor, const Asked& asked) const;
   void drop_run_file(const std::string& key) const;

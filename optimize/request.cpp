@@ -8,9 +8,22 @@
 
 namespace perfora::optimize {
 
+namespace {
+
+/// What is asked of a design, whatever keys the program that wrote it down knew; text that is no design as it is.
+std::string identity_of(const std::string& design_toml) {
+  try {
+    return DesignFile::from_toml(design_toml, "request").schema().changed_toml();
+  } catch (const io::InputError&) {
+    return design_toml;
+  }
+}
+
+}  // namespace
+
 std::string Request::key() const {
   // SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
-  nlohmann::json identity = to_json(Request{design_toml, replicate, until});
+  nlohmann::json identity = to_json(Request{identity_of(design_toml), replicate, until});
   identity["results_version"] = results_version;
   const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
   return boost::uuids::to_string(generator(identity.dump()));

@@ -340,6 +340,25 @@ std::map<std::string, std::string> Study::resolved() const {
   return all;
 }
 
+std::set<std::string> Study::at_default() const {
+  std::set<std::string> names;
+  StudyKeys own;
+  TargetKeys aim;
+  ConstraintKeys limits;
+  io::Schema schema;  // bound to the defaults, then given what this study has
+  describe(schema, own);
+  describe(schema, aim);
+  describe(schema, limits);
+  own = keys;
+  aim = target;
+  limits = constraints;
+  for (const io::Key& key : schema.keys())
+    if (key.at_default()) names.insert(key.full_name());
+  for (const io::Key& key : start->schema().keys())
+    if (key.at_default()) names.insert("design." + key.full_name());
+  return names;
+}
+
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   Reader reader(path);
   reader.read(overrides);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,8 @@ struct Study {
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",
   /// "design.material.horizon", ...); file names, workers and output options are left out.
   std::map<std::string, std::string> resolved() const;
+  /// Names in resolved() whose keys are at their defaults.
+  std::set<std::string> at_default() const;
   /// Values of a point of the unit cube: low + x (high - low), rounded to 12 digits so that equal points give equal
   /// keys on every machine.
   std::vector<double> values_at(std::span<const double> x) const;

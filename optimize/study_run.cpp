@@ -41,8 +41,9 @@ json header(const Study& study, const std::string& command_line) {
           {"resolved", resolved}, {"command_line", command_line}, {"file", study.file.filename().string()}};
 }
 
-/// Throws io::InputError when the study of a journal's header differs from this one in more than how far to go.
-void check_same_study(const json& there, const json& here, const std::filesystem::path& journal) {
+/// Throws io::InputError when the study of a journal's header differs from this one in more than how far to go. A key
+/// that the program had not learned when the header was written is the same at its default.
+void check_same_study(const json& there, const json& here, const Study& study, const std::filesystem::path& journal) {
   auto refuse = [&](const std::string& key, const std::string& old_value, const std::string& new_value) {
     throw io::InputError({journal.string(), 0, key},
                          fmt::format("the study of this folder has {}, this one has {}", old_value, new_value),
@@ -60,7 +61,9 @@ void check_same_study(const json& there, const json& here, const std::filesystem
   std::set<std::string> keys;
   for (const auto* object : {&there.at("resolved"), &here.at("resolved")})
     for (const auto& entry : object->items()) keys.insert(entry.key());
+  const std::set<std::string> at_default = study.at_default();
   for (const std::string& key : keys) {
+    if (!there.at("resolved").contains(key) && at_default.contains(key)) continue;
     const std::string old_value = text_of(there.at("resolved"), key), new_value = text_of(here.at("resolved"), key);
     if (old_value != new_value && !may_change(key)) refuse(key, old_value, new_value);
   }
@@ -81,7 +84,7 @@ StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)),
   const auto path = options.folder / "journal.jsonl";
   queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json& event) {
     if (event.value("event", "") != "study") return;
-    check_same_study(event, now, path);
+    check_same_study(event, now, study_, path);
     known = true;
   });
   if (!known || resume) queue_->note(now);

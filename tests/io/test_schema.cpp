@@ -169,6 +169,18 @@ TEST(Schema, ResolvedConfigurationBringsBackTheSameBits) {
   }
 }
 
+TEST(Schema, ChangedConfigurationLeavesDefaultsOut) {
+  Example example;
+  EXPECT_EQ(example.schema.changed_toml(), "");
+  example.schema.set_override("loading.strains=[0.25]");
+  example.schema.set_override("layout.rows=4");
+  example.schema.set_override("layout.diameter=20 mm");  // the default in words
+  EXPECT_EQ(example.schema.changed_toml(), "[layout]\nrows = 4\n\n[loading]\nstrains = [0.25]\n");
+  Example read;
+  read.apply(example.schema.changed_toml());
+  EXPECT_EQ(read.schema.to_toml(), example.schema.to_toml());
+}
+
 TEST(Schema, ResolvedConfigurationHoldsEveryKeyInSi) {
   Example example;
   example.schema.set_override("layout.diameter=22mm");

@@ -94,11 +94,9 @@ TEST(Children, ACrashCostsOneEvaluation) {
   const auto executor = make_child_executor(child_options(folder, 2));
   const auto answers = ask(*executor, {1, 103, 2, 105, 3, 106, 4, 108, 5, 109, 6, 111});
   for (int k = 1; k <= 6; ++k) EXPECT_EQ(answers.at(std::to_string(k)).evaluation.summary.plateau_stress, 1000.0 * k);
-  const std::map<std::string, std::string> reasons{{"103", "exit code 42"},
-                                                   {"105", "cannot be read"},
-                                                   {"106", "signal 9"},
-                                                   {"108", "cannot be read"},
-                                                   {"109", "signal 11"}, {"111", "told to stop"}};
+  const std::map<std::string, std::string> reasons{{"103", "exit code 42"}, {"105", "cannot be read"},
+                                                   {"106", "signal 9"},     {"108", "cannot be read"},
+                                                   {"109", "signal 11"},    {"111", "told to stop"}};
   for (const auto& [key, reason] : reasons) {
     const Answer& answer = answers.at(key);
     EXPECT_EQ(answer.evaluation.status, solver::RunStatus::failed) << key;

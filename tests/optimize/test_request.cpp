@@ -25,6 +25,18 @@ TEST(Request, KeyDoesNotDependOnHowADesignIsWritten) {
   EXPECT_EQ(make_request(plain, 0).key(), make_request(units, 0).key());
 }
 
+// A program that did not know damage_form yet wrote no such line, and meant the default.
+TEST(Request, KeyStaysWhenTheProgramLearnsAKey) {
+  Request request = make_request(DesignFile::from_toml("[layout]\nrows = 4\n", "a"), 0);
+  const std::string key = request.key();
+  const std::string line = "damage_form = \"linear_damage\"\n";
+  ASSERT_NE(request.design_toml.find(line), std::string::npos);
+  request.design_toml.erase(request.design_toml.find(line), line.size());
+  EXPECT_EQ(request.key(), key);
+  request.design_toml = "[material]\ndamage_form = \"linear_force\"\n[layout]\nrows = 4\n";
+  EXPECT_NE(request.key(), key);
+}
+
 TEST(Request, GoesThroughJson) {
   const Request request = make_request(DesignFile(), 4, 0.45);
   const Request again = request_from_json(nlohmann::json::parse(to_json(request).dump()));

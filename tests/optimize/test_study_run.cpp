@@ -250,6 +250,27 @@ TEST_F(StudyRunTest, RefusesADesignThatChangedBehindIt) {
   EXPECT_NE(input_error([&] { StudyRun other(study(), resume); }).find("design.material.horizon"), std::string::npos);
 }
 
+TEST_F(StudyRunTest, GoesOnWithTheJournalOfAProgramThatKnewAKeyLess) {
+  const auto expected = [&] {
+    StudyRun run(study(), options("out"));
+    return finish(run);
+  }();
+  const std::vector<std::string> events = io::Journal(folder / "out/journal.jsonl").events();
+  std::filesystem::create_directory(folder / "older");
+  {
+    io::Journal journal(folder / "older/journal.jsonl");
+    for (const std::string& event : events) {
+      auto record = nlohmann::json::parse(event);
+      if (record.contains("resolved")) record["resolved"].erase("design.material.damage_form");
+      journal.append(record.dump());
+    }
+  }
+  WorkOptions resume = options("older");
+  resume.resume = true;
+  StudyRun again(study(), resume);
+  EXPECT_EQ(finish(again), expected);
+}
+
 TEST_F(StudyRunTest, WritesABestDesignThatReadsBack) {
   StudyRun run(study(), options("out"));
   const auto record = finish(run);

@@ -222,6 +222,39 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
     EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
 }
 
+// The journal of a program that knew a key less (under other names of its requests) and gave the same results is gone
+// on with; one of other results is not.
+TEST_F(SweepTest, AnOlderProgramsJournalIsGoneOnWith) {
+  const std::string text = sweep_text("[grid]\nmaterial.horizon = [2, 2.5]\n");
+  {
+    SweepRun run(sweep(text), options("out"));
+    run.run();
+  }
+  const std::vector<std::string> events = io::Journal(folder / "out/journal.jsonl").events();
+  for (const bool same_results : {true, false}) {
+    const std::string name = same_results ? "older" : "other";
+    std::filesystem::create_directory(folder / name);
+    {
+      io::Journal journal(folder / name / "journal.jsonl");
+      for (const std::string& event : events) {
+        auto record = nlohmann::json::parse(event);
+        if (record.contains("results_version") && !same_results) record["results_version"] = results_version - 1;
+        if (record.contains("request")) {
+          record["key"] = "older " + record["key"].get<std::string>();
+          auto design = record["request"]["design"].get<std::string>();
+          const std::string line = "damage_form = \"linear_damage\"\n";
+          record["request"]["design"] = design.erase(design.find(line), line.size());
+        }
+        journal.append(record.dump());
+      }
+    }
+    const int before = asked;
+    SweepRun again(sweep(text), options(name, true));
+    again.run();
+    EXPECT_EQ(asked - before, same_results ? 0 : 6);
+  }
+}
+
 TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
   const std::string text = sweep_text("[grid]\nmaterial.horizon = [2, 2.5]\nmaterial.rupture_delay = [1.1, 1.5]\n");
   SweepRun straight(sweep(text), options("straight", false, 2));
