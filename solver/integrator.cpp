@@ -35,7 +35,7 @@ PERFORA_INLINE void store(Scalar* to, const Vector& v, int count) {
   std::memcpy(to, &v, static_cast<std::size_t>(count) * sizeof *to);
 }
 
-PERFORA_INLINE Reals damped_all(Reals force, Reals velocity, double c) {
+PERFORA_INLINE Reals damped_all(Reals force, Reals velocity, Reals c) {
   const Reals power = force * velocity, part = c * force;
   return power > 0.0 ? force - part : (power < 0.0 ? force + part : force);
 }
@@ -111,7 +111,9 @@ struct Arrays {
   DiscMotion* motion;
   const double* radius;
   int position_shift;
-  double dt, cundall_damping;
+  double dt;
+  const double* damping;
+  double rotation_share;
   CellMatrix mid;
 };
 
@@ -120,7 +122,7 @@ struct Lanes {
 };
 
 PERFORA_INLINE void move_eight(const Arrays& task, std::int32_t d, int count, Lanes& sums) {
-  const double dt = task.dt, c = task.cundall_damping;
+  const double dt = task.dt;
   // All loads before all stores: the arrays lie a multiple of 4096 bytes apart, and a load behind a store of the same
   // low address bits would wait for it.
   const Reals vx = load<Reals>(task.vx + d, count), vy = load<Reals>(task.vy + d, count),
@@ -128,11 +130,12 @@ PERFORA_INLINE void move_eight(const Arrays& task, std::int32_t d, int count, La
   const Reals fx = load<Reals>(task.fx + d, count), fy = load<Reals>(task.fy + d, count),
               torque = load<Reals>(task.torque + d, count);
   const Reals per_mass = load<Reals>(task.inverse_mass + d, count),
-              per_inertia = load<Reals>(task.inverse_inertia + d, count);
+              per_inertia = load<Reals>(task.inverse_inertia + d, count), c = load<Reals>(task.damping + d, count);
   const Fixed old_x = load<Fixed>(task.sx_before + d, count), old_y = load<Fixed>(task.sy_before + d, count),
               old_turn = load<Fixed>(task.turn_before + d, count);
 
-  const Reals gx = damped_all(fx, vx, c), gy = damped_all(fy, vy, c), gw = damped_all(torque, w, c);
+  const Reals gx = damped_all(fx, vx, c), gy = damped_all(fy, vy, c),
+              gw = damped_all(torque, w, task.rotation_share * c);
   const Reals nvx = vx + dt * gx * per_mass, nvy = vy + dt * gy * per_mass, nw = w + dt * gw * per_inertia;
   sums.cundall -= 0.5 * dt * ((gx - fx) * (vx + nvx) + (gy - fy) * (vy + nvy) + (gw - torque) * (w + nw));
   const Reals square = nvx * nvx + nvy * nvy;
@@ -196,7 +199,8 @@ KickSums kick_and_drift(const KickAndDrift& task, std::int32_t begin, std::int32
                       d.radius.data(),
                       d.position_shift,
                       task.dt,
-                      task.cundall_damping,
+                      task.damping,
+                      task.rotation_share,
                       task.mid};
   return move_discs(arrays, begin, end);
 }

@@ -21,9 +21,10 @@ struct KickAndDrift {
   DiscState& discs;
   const double* inverse_mass;
   const double* inverse_inertia;
-  double dt;               ///< s
-  double cundall_damping;  ///< c
-  CellMatrix mid;          ///< H in the middle of the drift
+  double dt;              ///< s
+  const double* damping;  ///< c of forces, by disc
+  double rotation_share;  ///< c of torques over c of forces
+  CellMatrix mid;         ///< H in the middle of the drift
 };
 
 struct KickSums {

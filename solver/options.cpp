@@ -83,6 +83,11 @@ void describe(io::Schema& schema, SolverOptions& options) {
   schema.section("dynamics", "Integration and damping.")
       .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
             "Local damping coefficient, per component.")
+      .choice(
+          "cundall_scope", dynamics.cundall_scope,
+          {{"all", CundallScope::all}, {"translation", CundallScope::translation}, {"bonded", CundallScope::bonded}},
+          "What it acts on: forces and torques of all discs; forces only; discs with an intact bond only, so that "
+          "free grains are slowed by contacts alone.")
       .choice("mass", dynamics.mass, {{"uniform_step", MassScaling::uniform_step}, {"physical", MassScaling::physical}},
               "uniform_step: masses and inertias scaled to nearly one critical step, total mass kept; physical for "
               "wave problems.")

@@ -17,6 +17,9 @@ enum class NoiseKind { none, perlin, weibull };
 enum class NoiseMapping { linear, exponential };
 enum class LoadingControl { adaptive, constant };
 enum class MassScaling { uniform_step, physical };
+/// What Cundall's damping acts on: forces and torques of all discs; forces only; forces and torques of discs that have
+/// an intact bond, so that free grains are slowed by contacts only.
+enum class CundallScope { all, translation, bonded };
 enum class FrameChoice { none, few, all };
 enum class KernelChoice { reference, openmp };
 enum class SimdChoice { automatic, avx512, avx2, portable };
@@ -51,7 +54,7 @@ struct NoiseOptions {
   double length = 5.04e-3;  ///< l, m
   double amplitude = 1.8;   ///< Delta
   double deviation = 0.0;   ///< key `std`: when positive, the wanted standard deviation of the factor (of its logarithm
-                           ///< in the exponential mapping) instead of `amplitude`
+                            ///< in the exponential mapping) instead of `amplitude`
   double weibull_modulus = 4.0;
 };
 
@@ -66,6 +69,7 @@ struct LoadingOptions {
 /// [dynamics]
 struct DynamicsOptions {
   double cundall_damping = 0.7;
+  CundallScope cundall_scope = CundallScope::all;
   MassScaling mass = MassScaling::uniform_step;
   double step_factor = 0.6;  ///< of the critical step
   KernelChoice kernel = KernelChoice::openmp;

@@ -101,6 +101,7 @@ Simulation::Simulation(SimulationInput input)
     inverse_mass_.push_back(1.0 / discs_.mass[d]);
     inverse_inertia_.push_back(1.0 / discs_.inertia[d]);
   }
+  damping_ = CundallDamping(options_.dynamics, network_, n);
   discs_.position_shift = record_shift(now_, input.mean_diameter * options_.material.horizon,
                                        2.0 * largest_radius + skin_share * input.mean_diameter);
   refresh_records();
@@ -134,7 +135,8 @@ void Simulation::move_discs() {
                           inverse_mass_.data(),
                           inverse_inertia_.data(),
                           time_step_,
-                          options_.dynamics.cundall_damping,
+                          damping_.coefficients(),
+                          damping_.rotation_share(),
                           {0.5 * (before_.xx + now_.xx), 0.5 * (before_.xy + now_.xy), 0.5 * (before_.yy + now_.yy)}};
   const auto chunks = static_cast<std::int32_t>(chunk_sums_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
@@ -261,6 +263,7 @@ void Simulation::record_breaks() {
     const BondPoint point{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     event.energy = damageable_energy(bond_law_, point, point);
     events_.push_back(event);
+    damping_.bond_broke(i, j);
   }
   progress_.intact -= static_cast<double>(broken_.size());
   progress_.broken_in_layout += static_cast<double>(broken_.size());
@@ -326,6 +329,7 @@ void Simulation::restore(Snapshot s) {
   walls_.restore(s.walls);
   events_.reserve(static_cast<std::size_t>(network_.size()));
   events_.assign(s.events.begin(), s.events.end());
+  damping_ = CundallDamping(options_.dynamics, network_, discs_.sx.size());
   refresh_records();
   backend_->load(network_, discs_, cell_.start);
   backend_->list(near_pairs_, discs_);

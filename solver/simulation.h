@@ -8,6 +8,7 @@
 
 #include "geometry/packing.h"
 #include "solver/cell.h"
+#include "solver/damping.h"
 #include "solver/integrator.h"
 #include "solver/kernels.h"
 #include "solver/loading_rate.h"
@@ -150,6 +151,7 @@ class Simulation {
   ContactLaw contact_law_;
   DiscState discs_;
   std::vector<double> inverse_mass_, inverse_inertia_;
+  CundallDamping damping_;
   BondNetwork network_;
   mutable NearPairs near_pairs_;  // contact histories come from the backend when somebody asks
   Walls walls_;

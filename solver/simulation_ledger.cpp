@@ -39,14 +39,14 @@ Ledger Simulation::ledger() const {
   backend_->collect(near_pairs_);
   Ledger ledger = progress_.ledger;
   ledger.elastic_contacts += walls_.elastic_energy(discs_, now_);
-  const double half = 0.5 * time_step_, c = options_.dynamics.cundall_damping;
+  const double half = 0.5 * time_step_;
   const auto kick =
       sum_of_chunks<HalfKick>(discs_.size(), chunk_discs, threads_, [&](std::int64_t d, std::int64_t end) {
         HalfKick sum;
         for (auto k = static_cast<std::size_t>(d); k < static_cast<std::size_t>(end); ++k) {
-          const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k];
+          const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k], c = damping_.of_force(k);
           const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
-                       torque = damped(discs_.torque[k], w, c);
+                       torque = damped(discs_.torque[k], w, damping_.rotation_share() * c);
           const double nvx = vx + half * fx * inverse_mass_[k], nvy = vy + half * fy * inverse_mass_[k],
                        nw = w + half * torque * inverse_inertia_[k];
           sum.cundall -= 0.5 * half *
