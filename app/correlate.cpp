@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "io/error.h"
 #include "optimize/sweep.h"
 #include "optimize/sweep_record.h"
 #include "report/plot_correlation.h"
@@ -31,32 +32,47 @@ struct Comparison {
 
 std::string interval_text(const optimize::RankCorrelation& correlation) {
   if (!std::isfinite(correlation.coefficient)) return "not defined";
-  if (!std::isfinite(correlation.low)) return fmt::format("{:.2f}", correlation.coefficient);
+  if (!std::isfinite(correlation.low)) return fmt::format("{:.2f} (no interval)", correlation.coefficient);
   return fmt::format("{:.2f} ({:.2f} to {:.2f})", correlation.coefficient, correlation.low, correlation.high);
+}
+
+/// "fidelity-cell, 1 replicate a case"
+std::string with_replicates(const SweepRecord& sweep) {
+  int fewest = sweep.cases.front().completed, most = fewest;
+  for (const SweepRecord::Case& one : sweep.cases) {
+    fewest = std::min(fewest, one.completed);
+    most = std::max(most, one.completed);
+  }
+  const std::string count = fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most);
+  return fmt::format("{}, {} replicate{} a case", sweep.name, count, most == 1 ? "" : "s");
 }
 
 std::string table_text(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
   std::string text;
   for (const Comparison& one : comparisons) {
-    text += fmt::format("{} against {}\n  {:<28}{:<30}{:>6}{:>22}\n", one.sweep.name, reference.name, "result",
-                        "rank correlation (95 %)", "cases", "median of their ratio");
+    const std::string ratio = one.sweep.name + " / " + reference.name;
+    text += fmt::format("{}, against\n{}\n  {:<28}{:<30}{:>6}   {}\n", with_replicates(one.sweep),
+                        with_replicates(reference), "result", "rank correlation (95 %)", "cases", "median of " + ratio);
     for (const ComparedMeasure& measure : one.measures)
-      text += fmt::format("  {:<28}{:<30}{:>6}{:>22.3g}\n", measure.measure, interval_text(measure.correlation),
-                          measure.correlation.count, measure.median_ratio);
+      text += fmt::format("  {:<28}{:<30}{:>6}   {}\n", measure.measure, interval_text(measure.correlation),
+                          measure.correlation.count,
+                          std::isfinite(measure.median_ratio) ? fmt::format("{:.3g}", measure.median_ratio) : "-");
   }
-  return text;
+  return text + "Rank correlation is Spearman's; its interval is that of drawing other cases.\n";
 }
 
 report::CorrelationPicture picture_of(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
   report::CorrelationPicture picture;
-  picture.title = "How sweeps rank the cases of " + reference.name;
+  picture.title = comparisons.size() == 1 ? comparisons.front().sweep.name + " against " + reference.name
+                                          : "Sweeps against " + reference.name;
   picture.subtitle =
-      "Means over replicates with their 95 % intervals; on the dashed line both agree in size, on any rising curve in "
-      "rank";
-  picture.reference = reference.name;
+      "A point a case: mean over its replicates, 95 % interval where there are several; on the dashed line both agree "
+      "in "
+      "size, on any rising curve in rank";
+  picture.reference = with_replicates(reference);
   for (const Comparison& one : comparisons) {
     auto& row = picture.rows.emplace_back();
-    row.sweep = one.sweep.name;
+    row.sweep = with_replicates(one.sweep);
     for (const ComparedMeasure& measure : one.measures) {
       auto& panel = row.panels.emplace_back();
       panel.measure = measure.measure;
@@ -73,12 +89,15 @@ report::CorrelationPicture picture_of(const SweepRecord& reference, const std::v
 int correlate(const CorrelateFlags& flags) {
   remove_stop_handlers();
   const auto measures = optimize::measures_in(flags.measures, {"--measures", 0, ""});
+  if (measures.empty())
+    throw io::InputError({"--measures", 0, ""}, "no result is named", "names such as plateau_stress", "");
   if (!flags.output.empty()) check_new_output(flags.output, flags.common.force);
   const SweepRecord reference = optimize::read_sweep_record(flags.reference);
   std::vector<Comparison> comparisons;
   nlohmann::json entries = nlohmann::json::array();
   for (const std::string& path : flags.sweeps) {
     Comparison one{optimize::read_sweep_record(path), {}};
+    log_warnings(optimize::differences(reference, one.sweep));
     one.measures = optimize::compare_sweeps(reference, one.sweep, measures, flags.only);
     entries.push_back(optimize::to_json(one.sweep, one.measures));
     comparisons.push_back(std::move(one));
@@ -101,12 +120,14 @@ int correlate(const CorrelateFlags& flags) {
 
 void add_correlate(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<CorrelateFlags>();
-  CLI::App* command =
-      program.add_subcommand("correlate", "Compare how sweeps rank the cases they share: what may a cheap one decide?");
-  command->add_option("REFERENCE", flags->reference, "Folder of the sweep to trust (the dear one)")->required();
+  CLI::App* command = program.add_subcommand(
+      "correlate", "Say whether cheap sweeps rank the cases that they share with an expensive one as that one does");
+  command->add_option("REFERENCE", flags->reference, "Folder of the sweep to trust (the expensive one)")->required();
   command->add_option("SWEEPS", flags->sweeps, "Folders of the sweeps compared with it; cases meet by their labels")
       ->required();
-  command->add_option("--measures", flags->measures, "Results to compare, by their names in cases.csv")
+  command
+      ->add_option("--measures", flags->measures,
+                   "Results to compare, by their names in the head of cases.csv, with commas")
       ->type_name("NAMES")
       ->capture_default_str();
   command->add_option("--only", flags->only, "Only cases that have TEXT in their label")->type_name("TEXT");

@@ -23,7 +23,8 @@ struct ShowFlags {
 };
 
 const char* what_show_reads =
-    "a run, packing or checkpoint (.h5), a journal, a design or study, the folder of a study or an ensemble, or one of "
+    "a run, packing or checkpoint (.h5), a journal, a design or study, the folder of a study, a sweep or an ensemble, "
+    "or one of "
     "perfora's JSON files";
 
 json parse_summary(const std::string& text, const fs::path& path) {
@@ -53,7 +54,9 @@ std::optional<json> summary_of(const fs::path& path) {
 void add_show(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<ShowFlags>();
   CLI::App* command = program.add_subcommand("show", "Print the summary of a file that perfora wrote");
-  command->add_option("FILE", flags->file, "Any file that perfora wrote, or the folder of a study or ensemble")
+  command
+      ->add_option("FILE", flags->file,
+                   "A file that perfora wrote (.h5, .json, .jsonl, .toml), or the folder of a study, sweep or ensemble")
       ->required();
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] {

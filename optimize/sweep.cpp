@@ -350,13 +350,17 @@ const std::vector<std::string>& sweep_measures() {
 std::vector<std::string> measures_in(const std::string& list, const io::Origin& origin) {
   std::vector<std::string> names;
   const auto& known = sweep_measures();
-  std::string rest = list;
-  while (!trimmed(rest).empty()) {
-    const auto comma = rest.find(',');
+  std::string rest = trimmed(list);
+  while (!rest.empty()) {
+    const auto comma = rest.find_first_of(", ");
     const std::string name = trimmed(rest.substr(0, comma));
-    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+    rest = comma == std::string::npos ? "" : trimmed(rest.substr(comma + 1));
+    if (name.empty()) continue;
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      const std::string nearest = io::nearest_name(name, known);
+      std::string nearest = io::nearest_name(name, known);
+      const auto longer =
+          std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.starts_with(name); });
+      if (nearest.empty() && longer != known.end()) nearest = *longer;
       throw io::InputError(origin, fmt::format("there is no result \"{}\"", name),
                            fmt::format("{}", fmt::join(known, ", ")),
                            nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));

@@ -46,25 +46,53 @@ CaseMean result_of(const SweepRecord::Case& one, const std::string& measure) {
 
 SweepRecord read_sweep_record(const fs::path& path) {
   const fs::path file = fs::is_directory(path) ? path / "result.json" : path;
-  const char* remedy = "give the folder of a finished `perfora sweep`";
+  const char* remedy = "give the folder of a `perfora sweep`";
   const auto refuse = [&](const std::string& problem) {
     return io::InputError({file.string(), 0, ""}, problem, "", remedy);
   };
-  if (!fs::exists(file)) throw refuse("there is no such file");
+  if (!fs::exists(path)) throw refuse("there is no such file or folder");
+  if (!fs::exists(file))
+    throw refuse("this folder holds no result of a sweep (a sweep writes it when it ends or is stopped)");
   const json object = json::parse(io::read_file(file), nullptr, false);
   if (!object.is_object() || object.value("schema", "") != "perfora.sweep/1" || !object.contains("cases"))
     throw refuse("this is not the result of a sweep");
   SweepRecord record;
   record.name = fs::absolute(file).parent_path().filename().string();
+  record.plateau_window = object.value("plateau_window", std::vector<double>());
   for (const json& one : object["cases"]) {
     if (one.value("completed", 0) < 1) continue;
     SweepRecord::Case& added = record.cases.emplace_back();
     added.label = one.value("label", "");
+    added.completed = one.value("completed", 0);
     for (const auto& [name, statistic] : one["statistics"].items())
       added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
   }
   if (record.cases.empty()) throw refuse("no case of this sweep has completed yet");
   return record;
+}
+
+std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other) {
+  std::vector<std::string> found;
+  const auto window = [](const SweepRecord& record) {
+    return fmt::format("{:.4g} to {:.4g} %", 100.0 * record.plateau_window.front(),
+                       100.0 * record.plateau_window.back());
+  };
+  const bool known = reference.plateau_window.size() == 2 && other.plateau_window.size() == 2;
+  if (known && reference.plateau_window != other.plateau_window)
+    found.push_back(fmt::format("the plateau is taken from {} strain in {}, from {} in {}", window(reference),
+                                reference.name, window(other), other.name));
+  const auto reached = [](const SweepRecord& record) {
+    std::vector<double> strains;
+    for (const SweepRecord::Case& one : record.cases) strains.push_back(result_of(one, "final_strain").mean);
+    return median(std::move(strains));
+  };
+  constexpr double a_step = 1e-3;
+  if (std::fabs(reached(reference) - reached(other)) > a_step)
+    found.push_back(
+        fmt::format("{} was compressed to {:.4g} %, {} to {:.4g} %: results that look at the whole curve are "
+                    "not the same",
+                    reference.name, 100.0 * reached(reference), other.name, 100.0 * reached(other)));
+  return found;
 }
 
 std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const SweepRecord& other,
@@ -75,9 +103,9 @@ std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const 
   if (labels.size() < 3)
     throw io::InputError(
         {other.name, 0, ""},
-        fmt::format("{} of its completed cases {} a label with {}{}; a rank correlation needs three", labels.size(),
-                    labels.size() == 1 ? "shares" : "share", reference.name,
-                    only.empty() ? "" : " and has \"" + only + "\" in it"),
+        fmt::format("only {} of its completed cases {} called like one of {}{}; a rank correlation needs three",
+                    labels.size(), labels.size() == 1 ? "is" : "are", reference.name,
+                    only.empty() ? "" : " with \"" + only + "\" in the name"),
         "",
         fmt::format("{} has {} cases, the first is \"{}\"; {} begins with \"{}\"", reference.name,
                     reference.cases.size(), reference.cases.front().label, other.name, other.cases.front().label));

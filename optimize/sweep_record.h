@@ -22,9 +22,13 @@ struct SweepRecord {
   std::string name;  ///< of its folder
   struct Case {
     std::string label;
+    int completed = 0;                        ///< replicates
     std::map<std::string, CaseMean> results;  ///< by the names of sweep_measures()
   };
   std::vector<Case> cases;  ///< those with a completed replicate
+  /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
+  /// where an older program left them out.
+  std::vector<double> plateau_window;
 };
 
 /// Reads a sweep's folder or result.json. Throws io::InputError for anything else and where no case has completed.
@@ -38,6 +42,9 @@ struct ComparedMeasure {
   RankCorrelation correlation;
   double median_ratio = 0.0;  ///< of other over reference; NaN without pairs
 };
+
+/// Why numbers of the two may differ though the cases are the same: other plateau windows, other strains reached.
+std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other);
 
 /// How `other` orders the cases that it shares with `reference` by label and that have `only` in their label ("": all).
 /// `measures` are names of sweep_measures(). Throws io::InputError for fewer than three shared cases.

@@ -111,6 +111,9 @@ json to_json(const SweepRun& run) {
           {"replicates", run.sweep().keys.replicates},
           {"runs", run.sweep().runs()},
           {"measures", run.sweep().measures},
+          {"plateau_window",
+           {run.sweep().start->design().solver.measures.plateau_start,
+            run.sweep().start->design().solver.measures.plateau_end}},
           {"cases", cases},
           {"performance",
            {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};

@@ -277,6 +277,8 @@ TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   EXPECT_TRUE(fs::exists(folder_ / "c.png"));
   EXPECT_EQ(run("correlate out d.toml").exit_code, 1);
   EXPECT_THAT(run("correlate out out --measures plateau_stres").error, HasSubstr("did you mean plateau_stress"));
+  EXPECT_THAT(run("correlate out out --measures plateau").error, HasSubstr("did you mean plateau_stress"));
+  EXPECT_EQ(run("correlate out out --measures ''").exit_code, 1);
 }
 
 TEST_F(CommandLine, QuietLeavesResultsAndWarnings) {

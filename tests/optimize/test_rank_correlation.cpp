@@ -126,6 +126,18 @@ TEST_F(SweepRecords, MeetByLabel) {
   EXPECT_TRUE(record["measures"]["undulation"]["rank_correlation"].is_null());
 }
 
+TEST_F(SweepRecords, SayWhyNumbersMayDiffer) {
+  SweepRecord a{"a", {{"x", 1, {{"final_strain", {0.6, 0.0}}}}}, {0.2, 0.4}}, b = a;
+  b.name = "b";
+  EXPECT_TRUE(differences(a, b).empty());
+  b.plateau_window = {0.1, 0.3};
+  b.cases[0].results["final_strain"].mean = 0.3;
+  EXPECT_THAT(differences(a, b), ElementsAre("the plateau is taken from 20 to 40 % strain in a, from 10 to 30 % in b",
+                                             HasSubstr("a was compressed to 60 %, b to 30 %")));
+  b.plateau_window.clear();  // of an older program
+  EXPECT_EQ(differences(a, b).size(), 1u);
+}
+
 TEST_F(SweepRecords, OnlySomeCases) {
   const SweepRecord dear = read_sweep_record(sweep("dear", {"a 1", "b 1", "c 1", "d 2"}, {1, 2, 3, 4}));
   const SweepRecord cheap = read_sweep_record(sweep("cheap", {"a 1", "b 1", "c 1", "d 2"}, {3, 2, 1, 9}));
@@ -139,6 +151,8 @@ TEST_F(SweepRecords, OtherFilesAreRefused) {
   const auto unfinished = sweep("unfinished", {"a"}, {std::nan("")});
   EXPECT_THAT(input_error([&] { read_sweep_record(unfinished); }), HasSubstr("no case of this sweep has completed"));
   EXPECT_THAT(input_error([&] { read_sweep_record(folder / "none"); }), HasSubstr("no such file"));
+  std::filesystem::create_directory(folder / "running");
+  EXPECT_THAT(input_error([&] { read_sweep_record(folder / "running"); }), HasSubstr("holds no result of a sweep"));
   folder.file("r.json", R"({"schema": "perfora.study/1"})");
   EXPECT_THAT(input_error([&] { read_sweep_record(folder / "r.json"); }), HasSubstr("not the result of a sweep"));
 }
