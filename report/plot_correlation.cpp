@@ -15,7 +15,7 @@ namespace perfora::report {
 namespace {
 
 constexpr double page_width = 1600.0, page_margin = 44.0;
-constexpr double first_row = 160.0, row_gap = 110.0;
+constexpr double first_row = 160.0, row_gap = 136.0;
 constexpr double panels_left = 124.0, panel_gap = 120.0, tallest_panel = 440.0;
 constexpr double legend_line = 24.0;
 constexpr double legend_column = 370.0;
