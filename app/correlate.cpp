@@ -66,9 +66,8 @@ report::CorrelationPicture picture_of(const SweepRecord& reference, const std::v
   picture.title = comparisons.size() == 1 ? comparisons.front().sweep.name + " against " + reference.name
                                           : "Sweeps against " + reference.name;
   picture.subtitle =
-      "A point a case: mean over its replicates, 95 % interval where there are several; on the dashed line both agree "
-      "in "
-      "size, on any rising curve in rank";
+      "A point a case: mean over its replicates, 95 % interval where there are several; on the dashed line "
+      "both agree in size, on any rising curve in rank";
   picture.reference = with_replicates(reference);
   for (const Comparison& one : comparisons) {
     auto& row = picture.rows.emplace_back();
