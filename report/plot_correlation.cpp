@@ -9,6 +9,7 @@
 
 #include "report/canvas.h"
 #include "report/chart.h"
+#include "report/label_places.h"
 #include "report/measure_unit.h"
 
 namespace perfora::report {
@@ -19,6 +20,10 @@ constexpr double first_row = 160.0, row_gap = 136.0;
 constexpr double panels_left = 124.0, panel_gap = 120.0, tallest_panel = 440.0;
 constexpr double legend_line = 24.0;
 constexpr double legend_column = 370.0;
+constexpr double point_radius = 5.0;
+constexpr double digit_height = 11.0;  // of the 14 units of their size
+/// Numbers further from their point than this (centres) are joined to it by a line.
+constexpr double far_label = 22.0;
 /// Results that span more than this ratio stand on logarithmic axes.
 constexpr double logarithmic_ratio = 8.0;
 
@@ -66,12 +71,23 @@ void draw_panel(Canvas& canvas, const CorrelationPicture& picture, const Correla
     if (point.y_half > 0.0)
       canvas.line(at_x, clamped_y(point.y - point.y_half), at_x, clamped_y(point.y + point.y_half), bar, 1.6);
   }
+  LabelPlaces places(box);
   for (const CorrelationPoint& point : panel.points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-    canvas.disc(clamped_x(point.x), clamped_y(point.y), 5.0, palette::blue, palette::paper, 1.0);
-    const auto number = std::find(labels.begin(), labels.end(), point.label) - labels.begin() + 1;
-    canvas.text(clamped_x(point.x) + 7.0, clamped_y(point.y) - 5.0, std::to_string(number),
-                {.size = 14.0, .colour = palette::soft_ink, .halo = true});
+    canvas.disc(clamped_x(point.x), clamped_y(point.y), point_radius, palette::blue, palette::paper, 1.0);
+    places.keep_clear(clamped_x(point.x), clamped_y(point.y), point_radius);
+  }
+  for (const CorrelationPoint& point : panel.points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    const auto index = std::find(labels.begin(), labels.end(), point.label) - labels.begin();
+    const std::string number = std::to_string(index + 1);
+    const TextStyle style{.size = 14.0, .colour = palette::soft_ink, .halo = true};
+    const double x0 = clamped_x(point.x), y0 = clamped_y(point.y);
+    const Box place = places.place(x0, y0, point_radius, canvas.text_width(number, style), digit_height);
+    const double from_point = std::hypot(place.x + 0.5 * place.width - x0, place.y + 0.5 * place.height - y0);
+    if (from_point > far_label)
+      canvas.line(x0, y0, place.x + 0.5 * place.width, place.y + 0.5 * place.height, palette::soft_ink, 0.8);
+    canvas.text(place.x, place.bottom(), number, style);
   }
   canvas.text(box.x, box.y - 34.0, canvas.fit(unit.label, box.width, {.bold = true}), {.bold = true});
   const TextStyle caption{.size = 16.0, .colour = palette::soft_ink};
