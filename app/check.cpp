@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <optional>
 #include <set>
 
 #include "app/commands.h"
@@ -39,9 +40,9 @@ void warn_about_memory(const optimize::DesignEstimate& estimate, std::vector<std
                                    memory_text(estimate.memory_bytes), memory_text(memory)));
 }
 
-std::string estimate_text(const optimize::DesignEstimate& estimate, int threads) {
+std::string estimate_text(const optimize::DesignEstimate& estimate, int threads, const std::string& whose) {
   const auto count = [](std::int64_t value) { return with_thousands(static_cast<double>(value)); };
-  std::string text = "One evaluation (estimated from counts; no disc was placed)\n";
+  std::string text = fmt::format("One evaluation{} (estimated from counts; no disc was placed)\n", whose);
   text += line("perforations", count(estimate.perforations));
   text += line("porosity (share of the perforations)", fmt::format("{:.4g} %", 100.0 * estimate.porosity));
   if (estimate.perforations > 0) text += line("thinnest wall", length_text(estimate.thinnest_wall.thickness));
@@ -78,8 +79,9 @@ json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
           {"threads", threads}};
 }
 
+/// `design` is the one evaluation that is described, `whose` says in words which of several it is.
 int report(const CheckFlags& flags, const char* kind, const json& plan, const std::string& plan_text,
-           const optimize::DesignFile& design, std::vector<std::string> warnings) {
+           const optimize::DesignFile& design, std::vector<std::string> warnings, const std::string& whose = "") {
   const int threads = flags.common.thread_count();
   const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
   warn_about_memory(estimate, warnings);
@@ -90,7 +92,7 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
     object["warnings"] = warnings;
     print_json(object);
   } else {
-    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads) + plan_text);
+    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads, whose) + plan_text);
   }
   log_warnings(warnings);
   return exit_ok;
@@ -130,7 +132,9 @@ int check_sweep(const CheckFlags& flags) {
   const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides());
   json cases = json::array();
   std::string text = "Sweep\n";
-  double seconds = 0.0;
+  double seconds = 0.0, longest = 0.0;
+  int described = 0;  // the case that takes longest stands for all
+  std::optional<optimize::DesignFile> dearest;
   std::set<std::string> designs;
   for (const optimize::SweepCase& one : sweep.cases) {
     cases.push_back({{"case", one.number}, {"label", one.label}, {"problem", one.problem}});
@@ -139,18 +143,24 @@ int check_sweep(const CheckFlags& flags) {
       text += line(name, one.label + " (cannot be run)");
       continue;
     }
-    const auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
+    auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
     const double each = optimize::estimate_design(design, 1).seconds;
     const bool counted = !designs.insert(one.design_toml).second;
     text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : duration_text(each)));
     if (!counted) seconds += each * sweep.keys.replicates;
+    if (each <= longest) continue;
+    longest = each;
+    described = one.number;
+    dearest = std::move(design);
   }
   const int workers = sweep.workers(flags.workers);
   seconds /= workers;
   text += line("simulations", with_thousands(static_cast<double>(sweep.runs())));
   text += line(fmt::format("time with {} at once, roughly", workers), duration_text(seconds));
-  const json object = {{"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}};
-  return report(flags, "sweep", object, text, *sweep.start, sweep.warnings);
+  const json object = {
+      {"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}, {"described_case", described}};
+  return report(flags, "sweep", object, text, dearest ? *dearest : *sweep.start, sweep.warnings,
+                dearest ? fmt::format(" of case {}, the longest", described) : "");
 }
 
 int check_calibration(const CheckFlags& flags) {

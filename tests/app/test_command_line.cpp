@@ -251,6 +251,7 @@ TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   const json check = json::parse(run("check s.toml --json").output);
   EXPECT_EQ(check["kind"], "sweep");
   EXPECT_EQ(check["sweep"]["simulations"], 6);
+  EXPECT_EQ(check["sweep"]["described_case"], 0);  // the horizon of the design itself, 3, makes the most bonds
   const Outcome outcome = run("sweep s.toml -o out --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const json record = json::parse(outcome.output);
