@@ -12,6 +12,7 @@
 #include "app/workers.h"
 #include "io/schema.h"
 #include "optimize/calibration.h"
+#include "optimize/case_choice.h"
 #include "optimize/estimate.h"
 #include "optimize/study.h"
 #include "optimize/sweep.h"
@@ -25,6 +26,7 @@ using nlohmann::json;
 struct CheckFlags {
   CommonFlags common;
   std::string file;
+  std::vector<std::string> only;
   int workers = 0;
 };
 
@@ -129,7 +131,8 @@ int check_study_file(const CheckFlags& flags) {
 }
 
 int check_sweep(const CheckFlags& flags) {
-  const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides());
+  optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides());
+  optimize::choose_cases(sweep, flags.only);
   json cases = json::array();
   std::string text = "Sweep\n";
   double seconds = 0.0, longest = 0.0;
@@ -198,6 +201,7 @@ void add_check(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("check", "Say what a design, study, sweep or calibration would run, without running it");
   command->add_option("FILE", flags->file, "Design, study, sweep or calibration file (TOML)")->required();
+  add_only_flag(*command, flags->only);
   add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/workers.h"
 #include "io/error.h"
 #include "optimize/sweep.h"
 #include "optimize/sweep_record.h"
@@ -21,8 +22,8 @@ using optimize::SweepRecord;
 
 struct CorrelateFlags {
   CommonFlags common;
-  std::string reference, measures = "first_peak_stress, plateau_stress, undulation", only, output;
-  std::vector<std::string> sweeps;
+  std::string reference, measures = "first_peak_stress, plateau_stress, undulation", output;
+  std::vector<std::string> sweeps, only;
 };
 
 struct Comparison {
@@ -129,7 +130,7 @@ void add_correlate(CLI::App& program, int& exit_code) {
                    "Results to compare, by their names in the head of cases.csv, with commas")
       ->type_name("NAMES")
       ->capture_default_str();
-  command->add_option("--only", flags->only, "Only cases that have TEXT in their label")->type_name("TEXT");
+  add_only_flag(*command, flags->only);
   command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: none)");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] {

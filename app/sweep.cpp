@@ -9,6 +9,7 @@
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "app/workers.h"
+#include "optimize/case_choice.h"
 #include "optimize/study.h"
 #include "optimize/sweep_result.h"
 #include "report/plot.h"
@@ -26,6 +27,7 @@ using optimize::SweepCase;
 struct SweepFlags {
   CommonFlags common;
   std::string sweep, output;
+  std::vector<std::string> only;
   bool resume = false;
   int workers = 0;
 };
@@ -138,6 +140,7 @@ bool draw_collapse(const optimize::SweepRun& run) {
 int sweep_designs(const SweepFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides());
+  optimize::choose_cases(sweep, flags.only);
   const optimize::WorkOptions options = run_options(flags, sweep);
   optimize::SweepRun run(std::move(sweep), options);
   log_warnings(run.sweep().warnings);
@@ -172,6 +175,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume,
                     "Go on with a sweep that was stopped, killed or extended; finished runs are kept");
+  add_only_flag(*command, flags->only);
   add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {

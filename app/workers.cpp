@@ -29,6 +29,12 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers
   };
 }
 
+void add_only_flag(CLI::App& command, std::vector<std::string>& only) {
+  command.add_option("--only", only, "Of a sweep: only the cases that have TEXT in their name (repeatable: or)")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+}
+
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
       .add_option("--workers", workers,

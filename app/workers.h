@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "optimize/executor.h"
 
@@ -13,6 +14,9 @@ namespace perfora::app {
 
 /// Makes an executor of `workers` child processes that share `threads` threads.
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads);
+
+/// --only: cases of a sweep by their labels.
+void add_only_flag(CLI::App& command, std::vector<std::string>& only);
 
 /// --workers; `what` the file says otherwise ("study").
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what);

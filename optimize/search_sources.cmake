@@ -1,5 +1,6 @@
 # The search half of this room.
 set(search_sources
+  case_choice.cpp
   constraints.cpp
   objective.cpp
   study.cpp

@@ -2,6 +2,7 @@
 #include "optimize/sweep_record.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "io/error.h"
 #include "io/journal.h"
+#include "optimize/case_choice.h"
 #include "optimize/evaluation.h"
 
 namespace perfora::optimize {
@@ -96,16 +98,17 @@ std::vector<std::string> differences(const SweepRecord& reference, const SweepRe
 }
 
 std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const SweepRecord& other,
-                                            const std::vector<std::string>& measures, const std::string& only) {
+                                            const std::vector<std::string>& measures,
+                                            const std::vector<std::string>& only) {
   std::vector<std::string> labels;
   for (const SweepRecord::Case& one : reference.cases)
-    if (one.label.find(only) != std::string::npos && case_called(other, one.label)) labels.push_back(one.label);
+    if (is_chosen(one.label, only) && case_called(other, one.label)) labels.push_back(one.label);
   if (labels.size() < 3)
     throw io::InputError(
         {other.name, 0, ""},
         fmt::format("only {} of its completed cases {} called like one of {}{}; a rank correlation needs three",
                     labels.size(), labels.size() == 1 ? "is" : "are", reference.name,
-                    only.empty() ? "" : " with \"" + only + "\" in the name"),
+                    only.empty() ? "" : fmt::format(" with \"{}\" in the name", fmt::join(only, "\" or \""))),
         "",
         fmt::format("{} has {} cases, the first is \"{}\"; {} begins with \"{}\"", reference.name,
                     reference.cases.size(), reference.cases.front().label, other.name, other.cases.front().label));

@@ -46,10 +46,11 @@ struct ComparedMeasure {
 /// Why numbers of the two may differ though the cases are the same: other plateau windows, other strains reached.
 std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other);
 
-/// How `other` orders the cases that it shares with `reference` by label and that have `only` in their label ("": all).
+/// How `other` orders the cases that it shares with `reference` by label and that `only` chooses (case_choice.h).
 /// `measures` are names of sweep_measures(). Throws io::InputError for fewer than three shared cases.
 std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const SweepRecord& other,
-                                            const std::vector<std::string>& measures, const std::string& only);
+                                            const std::vector<std::string>& measures,
+                                            const std::vector<std::string>& only);
 
 /// One entry of schema "perfora.correlate/1": name of `other` and every measure with coefficient, interval and cases.
 nlohmann::json to_json(const SweepRecord& other, const std::vector<ComparedMeasure>& compared);

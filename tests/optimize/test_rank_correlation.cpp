@@ -114,7 +114,7 @@ TEST_F(SweepRecords, MeetByLabel) {
   const SweepRecord dear = read_sweep_record(sweep("dear", {"a", "b", "c", "d", "x"}, {10, 20, 30, 40, 50}));
   const SweepRecord cheap = read_sweep_record(sweep("cheap", {"d", "y", "c", "b", "a"}, {80, 1, 40, 60, 20}));
   EXPECT_EQ(dear.name, "dear");
-  const auto compared = compare_sweeps(dear, cheap, {"plateau_stress", "undulation"}, "");
+  const auto compared = compare_sweeps(dear, cheap, {"plateau_stress", "undulation"}, {});
   ASSERT_EQ(compared.size(), 2u);
   EXPECT_THAT(compared[0].labels, ElementsAre("a", "b", "c", "d"));
   // 1 2 3 4 against 1 3 2 4: 1 - 6 (1 + 1)/(4 15)
@@ -141,8 +141,8 @@ TEST_F(SweepRecords, SayWhyNumbersMayDiffer) {
 TEST_F(SweepRecords, OnlySomeCases) {
   const SweepRecord dear = read_sweep_record(sweep("dear", {"a 1", "b 1", "c 1", "d 2"}, {1, 2, 3, 4}));
   const SweepRecord cheap = read_sweep_record(sweep("cheap", {"a 1", "b 1", "c 1", "d 2"}, {3, 2, 1, 9}));
-  EXPECT_EQ(compare_sweeps(dear, cheap, {"plateau_stress"}, " 1")[0].correlation.coefficient, -1.0);
-  const std::string refused = input_error([&] { compare_sweeps(dear, cheap, {"plateau_stress"}, " 2"); });
+  EXPECT_EQ(compare_sweeps(dear, cheap, {"plateau_stress"}, {" 1"})[0].correlation.coefficient, -1.0);
+  const std::string refused = input_error([&] { compare_sweeps(dear, cheap, {"plateau_stress"}, {" 2"}); });
   EXPECT_THAT(refused, HasSubstr("needs three"));
   EXPECT_THAT(refused, HasSubstr("a 1"));
 }

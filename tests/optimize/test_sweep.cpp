@@ -9,6 +9,7 @@
 #include "io/csv.h"
 #include "io/journal.h"
 #include "io/progress.h"
+#include "optimize/case_choice.h"
 #include "optimize/sweep_result.h"
 #include "study_support.h"
 
@@ -279,6 +280,44 @@ TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
   EXPECT_EQ(record, expected);
   EXPECT_EQ(cases_csv(again), cases_csv(straight));
   EXPECT_EQ(curves_csv(again), curves_csv(straight));
+}
+
+// Chosen cases run alone, with the numbers and answers that they have among all; the others follow with --resume.
+TEST_F(SweepTest, ChosenCasesAreRunFirstAndTheRestLater) {
+  const std::string text = sweep_text("[each]\nmaterial.horizon = [2, 2.5]\nmaterial.rupture_delay = [1.5]\n",
+                                      "replicates = 3\nbase = true");
+  SweepRun straight(sweep(text), options("straight"));
+  straight.run();
+  Sweep some = sweep(text);
+  choose_cases(some, {"horizon 2.5", "delay"});
+  ASSERT_EQ(some.cases.size(), 3u);
+  EXPECT_EQ(some.cases[0].number, 0);
+  EXPECT_EQ(some.cases[1].number, 2);
+  EXPECT_EQ(some.cases[2].number, 3);
+  const int before = asked;
+  {
+    SweepRun first(some, options("chosen"));
+    first.run();
+    EXPECT_EQ(asked - before, 9);
+    EXPECT_EQ(first.reason(), "9 of 9 runs completed");
+    EXPECT_EQ(to_json(first)["cases"][1], to_json(straight)["cases"][2]);
+  }
+  SweepRun rest(sweep(text), options("chosen", true));
+  rest.run();
+  EXPECT_EQ(asked - before, 12);
+  EXPECT_EQ(cases_csv(rest), cases_csv(straight));
+}
+
+TEST_F(SweepTest, AChoiceThatLeavesNothingToRunIsRefused) {
+  const std::string text = sweep_text("[rows]\nname = [\"thin\", \"thick\"]\nlayout.diameter = [0.005, 0.03]\n");
+  Sweep none = sweep(text), broken = sweep(text), all = sweep(text);
+  EXPECT_NE(input_error([&] {
+              choose_cases(none, {"wide"});
+            }).find("no case has \"wide\" in its name; the names are \"thin\", \"thick\""),
+            std::string::npos);
+  EXPECT_NE(input_error([&] { choose_cases(broken, {"thick"}); }).find("can be run"), std::string::npos);
+  choose_cases(all, {});
+  EXPECT_EQ(all.cases.size(), 2u);
 }
 
 // Where a simulation may leave its file, and when it is thrown away: never what a stop left half done.
