@@ -1,42 +1,79 @@
-// What is here: `perfora plot`: R.h5, P.h5, T.h5 or an elastic answer -> picture. What is not: drawing (report).
+// What is here: `perfora plot`: R.h5, P.h5, T.h5 or an elastic answer -> picture; several R.h5 in one. What is not:
+// drawing (report).
 #include "report/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
 #include "io/hdf5.h"
+#include "optimize/design.h"
 
 namespace perfora::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct PlotFlags {
   CommonFlags common;
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
   std::string title;
   bool collapse = false;
 };
 
-[[noreturn]] void refuse_collapse(const std::filesystem::path& input) {
-  throw io::InputError({input.string(), 0, ""}, "--collapse draws the frames of a run, and this is none", "",
-                       "give the run file of perfora evaluate");
+std::string format_of(const fs::path& file) {
+  return io::Hdf5Reader(file).attribute_text("/", "format");
 }
 
-int plot(const PlotFlags& flags) {
-  flags.common.apply();
-  remove_stop_handlers();
-  const std::filesystem::path input = flags.input;
-  const std::string format = io::Hdf5Reader(input).attribute_text("/", "format");
-  const auto output = output_or_default(flags.output, default_name(input, ".png"));
-  check_new_output(output, flags.common.force);
+/// The keys of a design that are not at their defaults, without its seeds: the same for runs that only the luck of the
+/// packing tells apart, also where a program that knew fewer keys made one of them.
+std::string design_of(const report::RunResult& run) {
+  try {
+    optimize::DesignFile design = optimize::DesignFile::from_toml(run.config, run.path.string());
+    design.design().seeds = {};
+    return design.schema().changed_toml();
+  } catch (const io::InputError&) {
+    return run.config;  // of a program that knew more keys
+  }
+}
+
+/// The runs under the names of their files, under their whole paths where two files have one name.
+std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
+  std::vector<report::LabelledRun> runs;
+  for (const fs::path file : flags.inputs) {
+    if (!format_of(file).starts_with("perfora.run/"))
+      throw io::InputError({file.string(), 0, ""},
+                           flags.collapse ? "--collapse draws the frames of runs, and this is none"
+                                          : "several files are compared as runs, and this is none",
+                           "", "give run files of perfora evaluate");
+    const bool twice = std::count_if(flags.inputs.begin(), flags.inputs.end(),
+                                     [&](const fs::path& other) { return other.stem() == file.stem(); }) > 1;
+    report::RunResult run = report::read_run(file);
+    std::string design = design_of(run);
+    runs.push_back({twice ? file.string() : file.stem().string(), std::move(design), std::move(run)});
+  }
+  return runs;
+}
+
+void draw(const PlotFlags& flags, const fs::path& output) {
+  const fs::path input = flags.inputs.front();
   report::PlotOptions options;
   options.title = flags.title;
-  if (flags.collapse) {
-    if (!format.starts_with("perfora.run/")) refuse_collapse(input);
-    if (options.title.empty()) options.title = input.stem().string();
-    report::plot_collapse({{"", report::read_run(input)}}, output, options);
-  } else if (format.starts_with("perfora.pack/"))
+  if (flags.inputs.size() > 1 || flags.collapse) {
+    std::vector<report::LabelledRun> runs = read_runs(flags);
+    if (options.title.empty())
+      options.title = runs.size() > 1 ? fmt::format("{} runs", runs.size()) : input.stem().string();
+    if (runs.size() == 1) runs.front().label.clear();  // the heading says it
+    flags.collapse ? report::plot_collapse(runs, output, options) : report::plot_comparison(runs, output, options);
+    return;
+  }
+  const std::string format = format_of(input);
+  if (format.starts_with("perfora.pack/"))
     report::plot_packing(input, output, options);
   else if (format.starts_with("perfora.test/"))
     report::plot_material_tests(input, output, options);
@@ -44,6 +81,15 @@ int plot(const PlotFlags& flags) {
     report::plot_elastic(input, output, options);
   else
     report::plot_run(input, output, options);
+}
+
+int plot(const PlotFlags& flags) {
+  flags.common.apply();
+  remove_stop_handlers();
+  const std::string name = flags.inputs.size() > 1 ? "comparison.png" : default_name(flags.inputs.front(), ".png");
+  const auto output = output_or_default(flags.output, name);
+  check_new_output(output, flags.common.force);
+  draw(flags, output);
   if (flags.common.json)
     print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});
   io::log_info("written: " + output.string());
@@ -54,15 +100,17 @@ int plot(const PlotFlags& flags) {
 
 void add_plot(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PlotFlags>();
-  CLI::App* command = program.add_subcommand("plot", "Draw a run, a packing, material tests or an elastic answer");
+  CLI::App* command =
+      program.add_subcommand("plot", "Draw a run or several, a packing, material tests or an elastic answer");
   command
-      ->add_option("FILE", flags->input,
-                   "Run file R.h5, packing file P.h5, material tests T.h5 or file of evaluate --elastic")
+      ->add_option(
+          "FILE", flags->inputs,
+          "Run file R.h5 or several of them, packing file P.h5, material tests T.h5 or file of evaluate --elastic")
       ->required();
-  command->add_option("-o,--output", flags->output, "Picture: .png, .svg or .pdf (default: FILE's name + .png)");
+  command->add_option("-o,--output", flags->output,
+                      "Picture: .png, .svg or .pdf (default: FILE's name + .png, comparison.png of several)");
   command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name)")->type_name("TEXT");
-  command->add_flag("--collapse", flags->collapse,
-                    "Of a run: its frames side by side instead of curve and three blocks");
+  command->add_flag("--collapse", flags->collapse, "Of runs: their frames side by side instead of curves");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });
 }

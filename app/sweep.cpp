@@ -124,11 +124,11 @@ report::SweepPicture picture_of(const optimize::SweepRun& run) {
 
 /// collapse.png: the first replicate of every case whose run file was kept.
 bool draw_collapse(const optimize::SweepRun& run) {
-  std::vector<report::CollapseRow> rows;
+  std::vector<report::LabelledRun> rows;
   for (const SweepCase& one : run.sweep().cases) {
     if (!run.known(one, 0)) continue;
     const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0).key());
-    if (fs::exists(file)) rows.push_back({one.label, report::read_run(file)});
+    if (fs::exists(file)) rows.push_back({one.label, "", report::read_run(file)});
   }
   report::PlotOptions options;
   options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 0)";

@@ -36,16 +36,23 @@ std::vector<std::size_t> snapshot_frames(const RunResult& run);
 void plot_run(const std::filesystem::path& run_file, const std::filesystem::path& out, const PlotOptions& options = {});
 void draw_run(const RunPicture& picture, const std::filesystem::path& out, const PlotOptions& options = {});
 
-/// One run of a picture of collapses.
-struct CollapseRow {
+/// One run of a picture of several.
+struct LabelledRun {
   std::string label;
+  std::string design;  ///< runs of one design (other seeds) share it; plot_comparison only
   RunResult run;
 };
 
 /// How runs collapse: a row a run (up to eight of its frames side by side, all to one scale within the row, with strain
 /// and stress), under its label, first peak, plateau and the strain from which it only rises. Throws io::InputError as
 /// read_frame does, and for an extension other than .png, .svg, .pdf.
-void plot_collapse(const std::vector<CollapseRow>& rows, const std::filesystem::path& out, const PlotOptions& options);
+void plot_collapse(const std::vector<LabelledRun>& rows, const std::filesystem::path& out, const PlotOptions& options);
+
+/// Runs side by side: stress over strain, linear up to the highest first peak and logarithmic (smoothed), and a table
+/// of their numbers. Runs of one design have shades of one colour. Throws io::InputError for no run or
+/// an extension other than .png, .svg, .pdf.
+void plot_comparison(const std::vector<LabelledRun>& runs, const std::filesystem::path& out,
+                     const PlotOptions& options);
 
 /// P.h5 -> picture: the clipped block, discs by size, rims of the perforations, the size distribution and the measured
 /// quality.

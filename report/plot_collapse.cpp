@@ -50,7 +50,7 @@ double stress_around(const RunResult& run, double strain) {
   return count > 0.0 ? 1e-3 * sum / count : 0.0;
 }
 
-std::string row_text(const CollapseRow& row) {
+std::string row_text(const LabelledRun& row) {
   std::string text = row.label;
   const auto add = [&](const char* name, const char* key, double scale, const char* unit) {
     if (const auto value = summary_number(row.run.summary, key))
@@ -62,12 +62,12 @@ std::string row_text(const CollapseRow& row) {
   return text;
 }
 
-double row_height(const CollapseRow& row) {
+double row_height(const LabelledRun& row) {
   const double width = (page_width - 2.0 * page_margin - (most_blocks - 1) * block_gap) / most_blocks;
   return std::ceil(label_height + width * row.run.height / row.run.width + caption_height);  // whole pixels: rows alike
 }
 
-void draw_row(Canvas& canvas, const CollapseRow& row, double top) {
+void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
   const double width = (page_width - 2.0 * page_margin - (most_blocks - 1) * block_gap) / most_blocks;
   const double base = top + label_height + width * row.run.height / row.run.width;
   const TextStyle label{.size = 17.0, .bold = true};
@@ -90,9 +90,9 @@ void draw_row(Canvas& canvas, const CollapseRow& row, double top) {
 
 }  // namespace
 
-void plot_collapse(const std::vector<CollapseRow>& rows, const std::filesystem::path& out, const PlotOptions& options) {
+void plot_collapse(const std::vector<LabelledRun>& rows, const std::filesystem::path& out, const PlotOptions& options) {
   double height = first_row;
-  for (const CollapseRow& row : rows) height += row_height(row);
+  for (const LabelledRun& row : rows) height += row_height(row);
   Canvas canvas(out, page_width, height);
   const TextStyle title{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title), title);
@@ -102,7 +102,7 @@ void plot_collapse(const std::vector<CollapseRow>& rows, const std::filesystem::
       "strain around the frame",
       {.size = 17.0, .colour = palette::soft_ink});
   double y = first_row;
-  for (const CollapseRow& row : rows) {
+  for (const LabelledRun& row : rows) {
     draw_row(canvas, row, y);
     y += row_height(row);
   }

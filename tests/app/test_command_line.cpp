@@ -135,6 +135,14 @@ TEST_F(CommandLine, EvaluateWritesItsFilesAndPrintsOneObject) {
   EXPECT_THAT(read_text(folder_ / "r.csv"), HasSubstr("stress_yy"));
   EXPECT_EQ(json::parse(run("show r.h5 --json").output), record);
   EXPECT_EQ(run("plot r.h5 -o r.png").exit_code, 0);
+  EXPECT_EQ(run("plot r.h5 ./r.h5").exit_code, 0);
+  EXPECT_GT(fs::file_size(folder_ / "comparison.png"), 1000u);
+  EXPECT_EQ(run("plot r.h5 r.h5 --collapse -o both.png").exit_code, 0);
+  std::ofstream(folder_ / "other.h5") << "none";
+  const Outcome refused = run("plot r.h5 other.h5 -o never.png");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("other.h5"));
+  EXPECT_FALSE(fs::exists(folder_ / "never.png"));
 }
 
 TEST_F(CommandLine, ElasticAnswerInsteadOfARun) {

@@ -306,8 +306,8 @@ TEST(Collapse, ARowARun) {
   const auto folder = fresh_folder("collapse");
   write_run(small_run(), folder / "R.h5");
   const RunResult run = read_run(folder / "R.h5");
-  plot_collapse({{"one", run}}, folder / "one.png", {});
-  plot_collapse({{"one", run}, {"two", run}}, folder / "two.png", {});
+  plot_collapse({{"one", "", run}}, folder / "one.png", {});
+  plot_collapse({{"one", "", run}, {"two", "", run}}, folder / "two.png", {});
   const Image one(folder / "one.png"), two(folder / "two.png");
   EXPECT_EQ(one.width(), 1600);
   EXPECT_GT(two.height(), one.height() + 100);
@@ -322,6 +322,34 @@ TEST(Collapse, ARowARun) {
     }
   EXPECT_GT(dark, 1000);
   EXPECT_GT(equal, 0.95 * dark);  // rounding moves the rims of some discs by a shade
+}
+
+// Runs of two designs have two colours, two runs of one design a colour and a lighter one. The page grows with the
+// table where that is longer than the charts.
+TEST(Comparison, ColoursSayTheDesign) {
+  constexpr unsigned blue = 0x0072b2, orange = 0xe69f00, light_blue = 0x80b9d9;  // first two of the series; half white
+  const auto folder = fresh_folder("comparison");
+  write_run(small_run(), folder / "R.h5");
+  const RunResult run = read_run(folder / "R.h5");
+  const auto count = [&](const std::vector<LabelledRun>& runs, unsigned colour) {
+    plot_comparison(runs, folder / "c.png", {});
+    const Image image(folder / "c.png");
+    int found = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) found += image.at(x, y) == colour;
+    return found;
+  };
+  const std::vector<LabelledRun> two_designs{{"one", "a", run}, {"two", "b", run}};
+  EXPECT_GT(count(two_designs, blue), 50);
+  EXPECT_GT(count(two_designs, orange), 50);
+  const std::vector<LabelledRun> three_runs{{"one", "a", run}, {"two", "a", run}, {"three", "b", run}};
+  EXPECT_GT(count(three_runs, light_blue), 50);
+  EXPECT_GT(count(three_runs, orange), 50);
+  EXPECT_GT(count({{"one", "a", run}, {"two", "a", run}}, orange), 50) << "one design only: a colour a run";
+  const int height = Image(folder / "c.png").height();
+  count(std::vector<LabelledRun>(40, {"one", "a", run}), blue);
+  EXPECT_GT(Image(folder / "c.png").height(), height + 100);
+  EXPECT_THROW(plot_comparison(two_designs, folder / "c.gif", {}), io::InputError);
 }
 
 }  // namespace
