@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -12,7 +13,6 @@
 #include "app/workers.h"
 #include "io/schema.h"
 #include "optimize/calibration.h"
-#include "optimize/case_choice.h"
 #include "optimize/estimate.h"
 #include "optimize/study.h"
 #include "optimize/sweep.h"
@@ -34,12 +34,12 @@ std::string line(const std::string& label, const std::string& value) {
   return fmt::format("  {:<38} {}\n", label, value);
 }
 
-/// A warning when the machine has less memory than a run is expected to take.
-void warn_about_memory(const optimize::DesignEstimate& estimate, std::vector<std::string>& warnings) {
+/// A warning when the machine has less memory than a run is expected to take, `bytes`.
+void warn_about_memory(double bytes, std::vector<std::string>& warnings) {
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (estimate.memory_bytes > memory)
+  if (bytes > memory)
     warnings.push_back(fmt::format("a run takes about {}, this machine has {}: take larger discs or a smaller cell",
-                                   memory_text(estimate.memory_bytes), memory_text(memory)));
+                                   memory_text(bytes), memory_text(memory)));
 }
 
 std::string estimate_text(const optimize::DesignEstimate& estimate, int threads, const std::string& whose) {
@@ -81,12 +81,14 @@ json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
           {"threads", threads}};
 }
 
-/// `design` is the one evaluation that is described, `whose` says in words which of several it is.
+/// `design` is the one evaluation that is described, `whose` says in words which of several it is; `most_memory` is
+/// what the largest of them takes, bytes.
 int report(const CheckFlags& flags, const char* kind, const json& plan, const std::string& plan_text,
-           const optimize::DesignFile& design, std::vector<std::string> warnings, const std::string& whose = "") {
+           const optimize::DesignFile& design, std::vector<std::string> warnings, const std::string& whose = "",
+           double most_memory = 0.0) {
   const int threads = flags.common.thread_count();
   const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
-  warn_about_memory(estimate, warnings);
+  warn_about_memory(std::max(estimate.memory_bytes, most_memory), warnings);
   if (flags.common.json) {
     json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
     object.update(estimate_json(estimate, threads));
@@ -131,11 +133,10 @@ int check_study_file(const CheckFlags& flags) {
 }
 
 int check_sweep(const CheckFlags& flags) {
-  optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides());
-  optimize::choose_cases(sweep, flags.only);
+  const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides(), flags.only);
   json cases = json::array();
   std::string text = "Sweep\n";
-  double seconds = 0.0, longest = 0.0;
+  double seconds = 0.0, longest = 0.0, most_memory = 0.0;
   int described = 0;  // the case that takes longest stands for all
   std::optional<optimize::DesignFile> dearest;
   std::set<std::string> designs;
@@ -147,7 +148,9 @@ int check_sweep(const CheckFlags& flags) {
       continue;
     }
     auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
-    const double each = optimize::estimate_design(design, 1).seconds;
+    const optimize::DesignEstimate estimate = optimize::estimate_design(design, 1);
+    const double each = estimate.seconds;
+    most_memory = std::max(most_memory, estimate.memory_bytes);
     const bool counted = !designs.insert(one.design_toml).second;
     text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : duration_text(each)));
     if (!counted) seconds += each * sweep.keys.replicates;
@@ -163,7 +166,7 @@ int check_sweep(const CheckFlags& flags) {
   const json object = {
       {"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}, {"described_case", described}};
   return report(flags, "sweep", object, text, dearest ? *dearest : *sweep.start, sweep.warnings,
-                dearest ? fmt::format(" of case {}, the longest", described) : "");
+                dearest ? fmt::format(" of case {}, the longest", described) : "", most_memory);
 }
 
 int check_calibration(const CheckFlags& flags) {
@@ -201,11 +204,14 @@ void add_check(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("check", "Say what a design, study, sweep or calibration would run, without running it");
   command->add_option("FILE", flags->file, "Design, study, sweep or calibration file (TOML)")->required();
-  add_only_flag(*command, flags->only);
+  add_only_flag(*command, flags->only, ", and the design itself where the sweep has it as a case; for sweeps");
   add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
+    if (!flags->only.empty() && !has_section(flags->file, "sweep"))
+      throw io::InputError({flags->file, 0, "--only"}, "chooses cases of a sweep, and this is none", "",
+                           "leave it out");
     exit_code = has_section(flags->file, "study")       ? check_study_file(*flags)
                 : has_section(flags->file, "sweep")     ? check_sweep(*flags)
                 : has_section(flags->file, "calibrate") ? check_calibration(*flags)

@@ -30,19 +30,21 @@ std::string format_of(const fs::path& file) {
   return io::Hdf5Reader(file).attribute_text("/", "format");
 }
 
-/// The keys of a design that are not at their defaults, without its seeds: the same for runs that only the luck of the
-/// packing tells apart, also where a program that knew fewer keys made one of them.
+/// The keys of a design that are not at their defaults, without seeds and what is written: the same for runs that only
+/// luck tells apart, also where a program that knew fewer keys made one of them.
 std::string design_of(const report::RunResult& run) {
   try {
     optimize::DesignFile design = optimize::DesignFile::from_toml(run.config, run.path.string());
     design.design().seeds = {};
+    design.design().solver.output = {};
     return design.schema().changed_toml();
   } catch (const io::InputError&) {
     return run.config;  // of a program that knew more keys
   }
 }
 
-/// The runs under the names of their files, under their whole paths where two files have one name.
+/// The runs under the names of their files, with their folders where two files have one name, and with their status
+/// where they did not end.
 std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
   std::vector<report::LabelledRun> runs;
   for (const fs::path file : flags.inputs) {
@@ -55,7 +57,10 @@ std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
                                      [&](const fs::path& other) { return other.stem() == file.stem(); }) > 1;
     report::RunResult run = report::read_run(file);
     std::string design = design_of(run);
-    runs.push_back({twice ? file.string() : file.stem().string(), std::move(design), std::move(run)});
+    std::string label =
+        twice ? (fs::absolute(file).parent_path().filename() / file.stem()).string() : file.stem().string();
+    if (run.status != "completed") label += " (" + run.status + ")";
+    runs.push_back({std::move(label), std::move(design), std::move(run)});
   }
   return runs;
 }
@@ -109,7 +114,8 @@ void add_plot(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("-o,--output", flags->output,
                       "Picture: .png, .svg or .pdf (default: FILE's name + .png, comparison.png of several)");
-  command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name)")->type_name("TEXT");
+  command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name, or how many runs)")
+      ->type_name("TEXT");
   command->add_flag("--collapse", flags->collapse, "Of runs: their frames side by side instead of curves");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });

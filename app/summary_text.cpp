@@ -198,12 +198,14 @@ std::string performance_text(const json& object) {
     return found->contains(key) && found->at(key).is_number() ? found->at(key).get<double>() : NAN;
   };
   std::string text = "Performance\n";
-  std::string time = duration_text(number("seconds"));
-  if (found->contains("threads")) time += " on " + threads_text(found->value("threads", 1));
   // Studies and sweeps go on over several calls; what they cost is the sum over their simulations.
-  const bool resumable = std::isfinite(number("simulated_seconds"));
-  text += line_text(resumable ? "time of the last call" : "time", time);
-  if (resumable) text += line_text("sum of the simulations", duration_text(number("simulated_seconds")));
+  if (const double all = number("simulated_seconds"); std::isfinite(all)) {
+    text += line_text("time of the last call", duration_text(number("seconds")));
+    text += line_text("sum of all simulations", duration_text(all));
+  } else {
+    text += line_text(
+        "time", fmt::format("{} on {}", duration_text(number("seconds")), threads_text(found->value("threads", 1))));
+  }
   if (std::isfinite(number("solution_seconds")))
     text += line_text("  of it for the solution", duration_text(number("solution_seconds")));
   if (std::isfinite(number("steps_per_second")))

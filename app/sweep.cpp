@@ -9,7 +9,6 @@
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "app/workers.h"
-#include "optimize/case_choice.h"
 #include "optimize/study.h"
 #include "optimize/sweep_result.h"
 #include "report/plot.h"
@@ -139,12 +138,16 @@ bool draw_collapse(const optimize::SweepRun& run) {
 
 int sweep_designs(const SweepFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
-  Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides());
-  optimize::choose_cases(sweep, flags.only);
+  Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides(), flags.only);
   const optimize::WorkOptions options = run_options(flags, sweep);
   optimize::SweepRun run(std::move(sweep), options);
   log_warnings(run.sweep().warnings);
   io::log_info(fmt::format("{} cases, {} runs", run.sweep().cases.size(), run.sweep().runs()));
+  if (run.sweep().left_out > 0)
+    io::log_info(
+        fmt::format("{} cases are left out by --only: the tables in {} show the others; --resume without it "
+                    "runs the rest and shows all",
+                    run.sweep().left_out, options.folder.string()));
   run.run();
   optimize::write_results(run);
   report::plot_sweep(picture_of(run), options.folder / "sweep.png");
@@ -175,7 +178,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume,
                     "Go on with a sweep that was stopped, killed or extended; finished runs are kept");
-  add_only_flag(*command, flags->only);
+  add_only_flag(*command, flags->only, ", and the design itself where the sweep has it as a case");
   add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {

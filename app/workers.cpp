@@ -29,8 +29,9 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers
   };
 }
 
-void add_only_flag(CLI::App& command, std::vector<std::string>& only) {
-  command.add_option("--only", only, "Of a sweep: only the cases that have TEXT in their name (repeatable: or)")
+void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what) {
+  command.add_option("--only", only, "Only the cases that have TEXT in their name (repeatable)" + what)
+      ->check([](const std::string& text) { return text.empty() ? std::string("a text is wanted") : std::string(); })
       ->type_name("TEXT")
       ->allow_extra_args(false);
 }

@@ -1,4 +1,4 @@
-// What is here: see case_choice.h.
+// What is here: see case_choice.h. What is not: the cases.
 #include "optimize/case_choice.h"
 
 #include <fmt/format.h>
@@ -15,28 +15,15 @@ bool is_chosen(const std::string& label, const std::vector<std::string>& texts) 
                                       [&](const auto& text) { return label.find(text) != std::string::npos; });
 }
 
-void choose_cases(Sweep& sweep, const std::vector<std::string>& texts) {
-  if (texts.empty()) return;
+void refuse_choice(const std::filesystem::path& file, const std::vector<std::string>& texts,
+                   const std::vector<std::string>& labels) {
   constexpr std::size_t most_named = 12;
-  std::vector<std::string> labels;
-  for (const SweepCase& one : sweep.cases)
-    if (one.number != 0 && labels.size() < most_named) labels.push_back(one.label);
-  const auto asked = fmt::format("\"{}\"", fmt::join(texts, "\" or \""));
-  std::erase_if(sweep.cases, [&](const SweepCase& one) { return one.number != 0 && !is_chosen(one.label, texts); });
-  const io::Origin origin{sweep.file.string(), 0, "--only"};
-  const SweepCase* other = nullptr;
-  for (const SweepCase& one : sweep.cases) {
-    if (one.number == 0) continue;
-    if (one.problem.empty()) return;
-    other = &one;
-  }
-  if (other)
-    throw io::InputError(origin,
-                         fmt::format("no case with {} in its name can be run; the last: {}", asked, other->problem), "",
-                         "choose others, or mend the file");
+  const std::size_t named = std::min(labels.size(), most_named);
   throw io::InputError(
-      origin, fmt::format("no case has {} in its name", asked),
-      fmt::format("the names are \"{}\"{}", fmt::join(labels, "\", \""), labels.size() == most_named ? ", ..." : ""),
+      {file.string(), 0, "--only"}, fmt::format("no case has \"{}\" in its name", fmt::join(texts, "\" or \"")),
+      fmt::format("the names are \"{}\"{}",
+                  fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(named), "\", \""),
+                  named < labels.size() ? ", ..." : ""),
       "give a part of a name as perfora check lists them");
 }
 

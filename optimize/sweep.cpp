@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "optimize/case_choice.h"
 #include "optimize/evaluation_queue.h"
 #include "optimize/study.h"
 
@@ -93,8 +94,10 @@ struct Reader {
   std::vector<Axis> rows, grid, each;  ///< [rows] without its names
   io::ValueList names;                 ///< of [rows]
   CaseWarnings warnings;
+  std::vector<std::string> only, labels;  ///< what chooses cases; of all cases
+  int numbered = 0;                       ///< cases but the design itself
 
-  explicit Reader(const std::filesystem::path& file) : path(file) {
+  Reader(const std::filesystem::path& file, std::vector<std::string> texts) : path(file), only(std::move(texts)) {
     describe(schema, sweep.keys);
     sweep.file = file;
   }
@@ -253,10 +256,15 @@ struct Reader {
 
   void add(std::vector<SweepSetting> settings, const std::string& group, const std::string& name) {
     SweepCase made;
-    made.number = settings.empty() ? 0 : static_cast<int>(sweep.cases.size()) + (sweep.keys.base ? 0 : 1);
+    made.number = settings.empty() ? 0 : ++numbered;
     made.group = group;
     made.settings = std::move(settings);
     made.label = !name.empty() ? name : made.settings.empty() ? "the design itself" : label_of(made.settings);
+    labels.push_back(made.label);
+    if (made.number != 0 && !is_chosen(made.label, only)) {
+      ++sweep.left_out;
+      return;
+    }
     DesignFile design = sweep.start->clone();
     for (const SweepSetting& setting : made.settings) {
       design.schema().set(setting.key, setting.value, {path.string(), setting.value.line, setting.key});
@@ -299,6 +307,8 @@ struct Reader {
     }
     for (const Axis& axis : each)
       for (const io::Value& value : axis.values) add({{axis.key, value}}, axis.key, "");
+    if (std::none_of(labels.begin(), labels.end(), [&](const auto& label) { return is_chosen(label, only); }))
+      refuse_choice(path, only, labels);
     const std::vector<std::string> told = warnings.told(sweep.cases.size());
     sweep.warnings.insert(sweep.warnings.end(), told.begin(), told.end());
     for (const SweepCase& one : sweep.cases)
@@ -321,8 +331,9 @@ std::int64_t Sweep::runs() const {
   return static_cast<std::int64_t>(designs.size()) * keys.replicates;
 }
 
-Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  Reader reader(path);
+Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const std::vector<std::string>& only) {
+  Reader reader(path, only);
   reader.read(overrides);
   reader.make_cases();
   return std::move(reader.sweep);

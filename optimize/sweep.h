@@ -48,6 +48,7 @@ struct Sweep {
   SweepKeys keys;
   std::vector<std::string> measures;  ///< of keys.measures
   std::vector<SweepCase> cases;
+  int left_out = 0;                  ///< cases of the file that were not chosen
   std::string grid_key;              ///< of [grid], the one with several values that changes fastest; "" without [grid]
   std::vector<std::string> columns;  ///< every key that some case sets, in the order of the file
   std::shared_ptr<const DesignFile> start;
@@ -60,8 +61,10 @@ struct Sweep {
 /// Reads a sweep file and the design it names. Cases: every row of [rows] with every combination of [grid], then the
 /// values of [each] one at a time. `overrides` of [sweep], [set], [rows], [grid], [each] go to the sweep, all others to
 /// the design, but not a key that the sweep varies. A case that breaks a rule across keys (overlapping holes) stays in
-/// the table with its problem. Throws io::InputError, also when no case can be run.
-Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// the table with its problem. Where `only` has texts, cases with none of them in their label are left out, but for the
+/// design itself; the others keep their numbers. Throws io::InputError, also when no case can be run.
+Sweep read_sweep(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+                 const std::vector<std::string>& only = {});
 
 /// Keys of a sweep file in one printed reference (Markdown).
 std::string sweep_reference();

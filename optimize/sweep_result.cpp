@@ -110,6 +110,7 @@ json to_json(const SweepRun& run) {
           {"results_version", results_version},
           {"replicates", run.sweep().keys.replicates},
           {"runs", run.sweep().runs()},
+          {"left_out", run.sweep().left_out},
           {"measures", run.sweep().measures},
           {"plateau_window",
            {run.sweep().start->design().solver.measures.plateau_start,

@@ -11,7 +11,7 @@ namespace perfora::report {
 /// Places boxes one after another beside their points, each where it covers least of what is already taken.
 class LabelPlaces {
  public:
-  /// Labels stay within `area`.
+  /// What of a label sticks out of `area` counts as covered.
   explicit LabelPlaces(const Box& area) : area_(area) {}
   /// Takes the square around a point of this radius.
   void keep_clear(double x, double y, double radius);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/error.h"
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/curve_mean.h"
@@ -29,6 +30,13 @@ struct Drawn {
   StudyCurve smooth;                   ///< %, kPa
 };
 
+/// The k-th colour; darker with every turn through the palette.
+Colour hue(std::size_t k) {
+  constexpr double darker = 0.4;
+  const auto& hues = palette::series();
+  return mix(hues[k % hues.size()], palette::ink, 1.0 - std::pow(1.0 - darker, static_cast<double>(k / hues.size())));
+}
+
 /// A colour a design, lighter with every further run of it; a colour a run where all are of one design.
 std::vector<Colour> colours_of(const std::vector<LabelledRun>& rows) {
   constexpr double lightest = 0.5;
@@ -37,18 +45,17 @@ std::vector<Colour> colours_of(const std::vector<LabelledRun>& rows) {
     designs.push_back(row.design);
     if (std::find(known.begin(), known.end(), row.design) == known.end()) known.push_back(row.design);
   }
-  const auto& hues = palette::series();
   std::vector<Colour> colours;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (known.size() == 1) {
-      colours.push_back(hues[k % hues.size()]);
+      colours.push_back(hue(k));
       continue;
     }
-    const auto hue = static_cast<std::size_t>(std::find(known.begin(), known.end(), designs[k]) - known.begin());
+    const auto design = static_cast<std::size_t>(std::find(known.begin(), known.end(), designs[k]) - known.begin());
     const auto before = std::count(designs.begin(), designs.begin() + static_cast<std::ptrdiff_t>(k), designs[k]);
     const auto all = std::count(designs.begin(), designs.end(), designs[k]);
     const double light = all > 1 ? lightest * static_cast<double>(before) / static_cast<double>(all - 1) : 0.0;
-    colours.push_back(mix(hues[hue % hues.size()], palette::paper, light));
+    colours.push_back(mix(hue(design), palette::paper, light));
   }
   return colours;
 }
@@ -68,22 +75,41 @@ std::vector<Drawn> drawn_of(const std::vector<LabelledRun>& rows) {
   return all;
 }
 
+using Window = std::optional<std::pair<double, double>>;
+
 /// The window of the plateau where all runs have the same.
-std::optional<std::pair<double, double>> common_window(const std::vector<LabelledRun>& rows) {
-  const auto window = plateau_window(rows.front().run.summary);
+Window common_window(const std::vector<LabelledRun>& rows) {
+  const Window window = plateau_window(rows.front().run.summary);
   for (const LabelledRun& row : rows)
     if (plateau_window(row.run.summary) != window) return std::nullopt;
   return window;
 }
 
-void draw_curves(Canvas& canvas, const std::vector<Drawn>& all,
-                 const std::optional<std::pair<double, double>>& window) {
+/// What the page says of the plateaus: where they were taken, or that they cannot be compared.
+std::string window_text(const std::vector<LabelledRun>& rows, const Window& window) {
+  if (window)
+    return fmt::format("; shaded: the plateau window, {} to {} %", short_number(100.0 * window->first),
+                       short_number(100.0 * window->second));
+  const bool any =
+      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return plateau_window(row.run.summary); });
+  return any ? "; the plateau windows of these runs differ" : "";
+}
+
+/// `text` with its begin left out where it is wider than `width`: names of files differ at their end.
+std::string end_of(Canvas& canvas, const std::string& text, double width, const TextStyle& style) {
+  std::string shorter = text;
+  while (!shorter.empty() && canvas.text_width("..." + shorter, style) > width) shorter.erase(0, 1);
+  return canvas.text_width(text, style) <= width ? text : "..." + shorter;
+}
+
+void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& window) {
   double end = 0.0, peak = 0.0, highest = 0.0, lowest = INFINITY;
   for (const Drawn& one : all) {
     if (!one.strain.empty()) end = std::max(end, one.strain.back());
     const auto first_peak = summary_number(one.row->run.summary, "first_peak_stress");
-    for (const double value : one.stress) highest = std::max(highest, value);
-    peak = std::max(peak, first_peak ? 1e-3 * *first_peak : highest);
+    const double own = one.stress.empty() ? 0.0 : *std::max_element(one.stress.begin(), one.stress.end());
+    peak = std::max(peak, first_peak ? 1e-3 * *first_peak : own);
+    highest = std::max(highest, own);
     for (const double value : one.smooth.stress)
       if (value > 0.0) lowest = std::min(lowest, value);
   }
@@ -96,7 +122,8 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all,
   Chart lower(canvas, {panel_left, first_row + upper_height + panel_gap, panel_width, lower_height}, strain,
               logarithmic);
   for (Chart* chart : {&upper, &lower}) {
-    if (window) chart->x_band(100.0 * window->first, std::min(100.0 * window->second, end), palette::band, 0.75);
+    if (window && 100.0 * window->first < end)
+      chart->x_band(100.0 * window->first, std::min(100.0 * window->second, end), palette::band, 0.75);
     chart->draw_axes(chart == &lower);
   }
   for (const Drawn& one : all) {
@@ -132,8 +159,8 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
   };
   constexpr Field fields[] = {{"first peak", "kPa", "first_peak_stress", 1e-3},
                               {"plateau", "kPa", "plateau_stress", 1e-3},
-                              {"densification", "%", "densification_strain", 100.0}};
-  constexpr double field_width = 112.0;
+                              {"densified", "at %", "densification_strain", 100.0}};
+  constexpr double field_width = 86.0;
   const double fields_left = page_width - page_margin - field_width * std::size(fields);
   const TextStyle head{.size = 15.0, .colour = palette::soft_ink, .align = Align::right};
   const TextStyle name{.size = 16.0}, value{.size = 16.0, .align = Align::right};
@@ -148,7 +175,7 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
   for (const Drawn& one : all) {
     y += table_line;
     canvas.line(table_left, y - 5.0, table_left + 24.0, y - 5.0, one.colour, 4.0);
-    canvas.text(table_left + 34.0, y, canvas.fit(one.row->label, fields_left - table_left - 34.0, name), name);
+    canvas.text(table_left + 34.0, y, end_of(canvas, one.row->label, fields_left - table_left - 44.0, name), name);
     x = fields_left;
     for (const Field& field : fields) {
       const auto number = summary_number(one.row->run.summary, field.key);
@@ -161,17 +188,16 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
 
 void plot_comparison(const std::vector<LabelledRun>& rows, const std::filesystem::path& out,
                      const PlotOptions& options) {
+  if (rows.empty()) throw io::InputError({out.string(), 0, ""}, "no run was given to draw", "", "name run files");
   const std::vector<Drawn> all = drawn_of(rows);
   const double panels = first_row + upper_height + panel_gap + lower_height + 74.0;
   const double table = first_row + 60.0 + table_line * static_cast<double>(rows.size()) + page_margin;
   Canvas canvas(out, page_width, std::max(panels, table));
   const TextStyle title{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title), title);
-  const auto window = common_window(rows);
+  const Window window = common_window(rows);
   std::string line = "Above: every row of the history. Below: mean over 2 % strain, on a logarithmic axis";
-  if (window)
-    line += fmt::format("; shaded: the plateau window, {} to {} %", short_number(100.0 * window->first),
-                        short_number(100.0 * window->second));
+  line += window_text(rows, window);
   canvas.text(page_margin, 88.0, line, {.size = 17.0, .colour = palette::soft_ink});
   draw_curves(canvas, all, window);
   draw_table(canvas, all);

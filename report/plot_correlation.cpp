@@ -77,18 +77,21 @@ void draw_panel(Canvas& canvas, const CorrelationPicture& picture, const Correla
     canvas.disc(clamped_x(point.x), clamped_y(point.y), point_radius, palette::blue, palette::paper, 1.0);
     places.keep_clear(clamped_x(point.x), clamped_y(point.y), point_radius);
   }
+  std::vector<std::pair<std::string, Box>> numbers;
+  const TextStyle style{.size = 14.0, .colour = palette::soft_ink, .halo = true};
   for (const CorrelationPoint& point : panel.points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
     const auto index = std::find(labels.begin(), labels.end(), point.label) - labels.begin();
     const std::string number = std::to_string(index + 1);
-    const TextStyle style{.size = 14.0, .colour = palette::soft_ink, .halo = true};
     const double x0 = clamped_x(point.x), y0 = clamped_y(point.y);
     const Box place = places.place(x0, y0, point_radius, canvas.text_width(number, style), digit_height);
-    const double from_point = std::hypot(place.x + 0.5 * place.width - x0, place.y + 0.5 * place.height - y0);
-    if (from_point > far_label)
-      canvas.line(x0, y0, place.x + 0.5 * place.width, place.y + 0.5 * place.height, palette::soft_ink, 0.8);
-    canvas.text(place.x, place.bottom(), number, style);
+    const double to_x = place.x + 0.5 * place.width - x0, to_y = place.y + 0.5 * place.height - y0;
+    if (const double far = std::hypot(to_x, to_y); far > far_label)
+      canvas.line(x0 + to_x * point_radius / far, y0 + to_y * point_radius / far, x0 + to_x, y0 + to_y,
+                  palette::soft_ink, 0.8);
+    numbers.emplace_back(number, place);
   }
+  for (const auto& [number, place] : numbers) canvas.text(place.x, place.bottom(), number, style);
   canvas.text(box.x, box.y - 34.0, canvas.fit(unit.label, box.width, {.bold = true}), {.bold = true});
   const TextStyle caption{.size = 16.0, .colour = palette::soft_ink};
   canvas.text(box.x, box.y - 12.0, canvas.fit(panel.caption, box.width, caption), caption);

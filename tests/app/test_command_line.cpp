@@ -138,10 +138,10 @@ TEST_F(CommandLine, EvaluateWritesItsFilesAndPrintsOneObject) {
   EXPECT_EQ(run("plot r.h5 ./r.h5").exit_code, 0);
   EXPECT_GT(fs::file_size(folder_ / "comparison.png"), 1000u);
   EXPECT_EQ(run("plot r.h5 r.h5 --collapse -o both.png").exit_code, 0);
-  std::ofstream(folder_ / "other.h5") << "none";
-  const Outcome refused = run("plot r.h5 other.h5 -o never.png");
+  ASSERT_EQ(run("pack d.toml -o p.h5").exit_code, 0);
+  const Outcome refused = run("plot r.h5 p.h5 -o never.png");
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.error, HasSubstr("other.h5"));
+  EXPECT_THAT(refused.error, HasSubstr("p.h5: several files are compared as runs"));
   EXPECT_FALSE(fs::exists(folder_ / "never.png"));
 }
 
@@ -259,7 +259,10 @@ TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   const json check = json::parse(run("check s.toml --json").output);
   EXPECT_EQ(check["kind"], "sweep");
   EXPECT_EQ(check["sweep"]["simulations"], 6);
-  EXPECT_EQ(check["sweep"]["described_case"], 0);  // the horizon of the design itself, 3, makes the most bonds
+  const json longer = json::parse(run("check s.toml --json --set 'each.material.horizon=[2.0, 3.5]'").output);
+  EXPECT_EQ(longer["sweep"]["described_case"], 2) << "the longest horizon has the most bonds";
+  EXPECT_GT(longer["bonds"], check["bonds"]);
+  EXPECT_EQ(json::parse(run("check s.toml --only 2.5 --only none --json").output)["sweep"]["simulations"], 4);
   const Outcome outcome = run("sweep s.toml -o out --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const json record = json::parse(outcome.output);

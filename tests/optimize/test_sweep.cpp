@@ -9,7 +9,6 @@
 #include "io/csv.h"
 #include "io/journal.h"
 #include "io/progress.h"
-#include "optimize/case_choice.h"
 #include "optimize/sweep_result.h"
 #include "study_support.h"
 
@@ -43,7 +42,9 @@ class SweepTest : public testing::Test {
   void SetUp() override { io::set_verbosity(io::Verbosity::quiet); }
   void TearDown() override { io::set_verbosity(io::Verbosity::normal); }
 
-  Sweep sweep(const std::string& text) { return read_sweep(folder.file("sweep.toml", text)); }
+  Sweep sweep(const std::string& text, const std::vector<std::string>& only = {}) {
+    return read_sweep(folder.file("sweep.toml", text), {}, only);
+  }
   std::string refused(const std::string& text) {
     return input_error([&] { sweep(text); });
   }
@@ -288,8 +289,8 @@ TEST_F(SweepTest, ChosenCasesAreRunFirstAndTheRestLater) {
                                       "replicates = 3\nbase = true");
   SweepRun straight(sweep(text), options("straight"));
   straight.run();
-  Sweep some = sweep(text);
-  choose_cases(some, {"horizon 2.5", "delay"});
+  const Sweep some = sweep(text, {"horizon 2.5", "delay"});
+  EXPECT_EQ(some.left_out, 1);
   ASSERT_EQ(some.cases.size(), 3u);
   EXPECT_EQ(some.cases[0].number, 0);
   EXPECT_EQ(some.cases[1].number, 2);
@@ -309,15 +310,17 @@ TEST_F(SweepTest, ChosenCasesAreRunFirstAndTheRestLater) {
 }
 
 TEST_F(SweepTest, AChoiceThatLeavesNothingToRunIsRefused) {
-  const std::string text = sweep_text("[rows]\nname = [\"thin\", \"thick\"]\nlayout.diameter = [0.005, 0.03]\n");
-  Sweep none = sweep(text), broken = sweep(text), all = sweep(text);
-  EXPECT_NE(input_error([&] {
-              choose_cases(none, {"wide"});
-            }).find("no case has \"wide\" in its name; the names are \"thin\", \"thick\""),
+  const std::string rows = "[rows]\nname = [\"thin\", \"thick\"]\nlayout.diameter = [0.005, 0.03]\n";
+  const std::string text = sweep_text(rows), with_base = sweep_text(rows, "base = true");
+  const auto refused_choice = [&](const std::string& file, const std::string& only) {
+    return input_error([&] { sweep(file, {only}); });
+  };
+  EXPECT_NE(refused_choice(text, "wide").find("no case has \"wide\" in its name; the names are \"thin\", \"thick\";"),
             std::string::npos);
-  EXPECT_NE(input_error([&] { choose_cases(broken, {"thick"}); }).find("can be run"), std::string::npos);
-  choose_cases(all, {});
-  EXPECT_EQ(all.cases.size(), 2u);
+  EXPECT_NE(refused_choice(text, "thick").find("can be run"), std::string::npos) << "its holes overlap";
+  EXPECT_EQ(sweep(text).cases.size(), 2u);
+  EXPECT_EQ(sweep(text, {"thin"}).warnings.size(), 0u) << "thick is not warned of where it is not chosen";
+  EXPECT_EQ(sweep(with_base, {"design itself"}).cases.size(), 1u);
 }
 
 // Where a simulation may leave its file, and when it is thrown away: never what a stop left half done.

@@ -68,5 +68,21 @@ TEST(LabelPlaces, CrowdedPointsKeepTheirLabelsNear) {
   }
 }
 
+// Three points in a row, so near that the labels beside the outer ones would cover them: all three labels are free, and
+// what always standing on the upper right would cover is not.
+TEST(LabelPlaces, ChoosesWhatCoversLeast) {
+  const std::vector<Point> points{{300.0, 200.0}, {306.0, 194.0}, {312.0, 188.0}};
+  const auto labels = place_all(points);
+  double covered = 0.0, naive = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t l = 0; l < points.size(); ++l) {
+      covered += overlap(labels[k], square(points[l])) + (k < l ? overlap(labels[k], labels[l]) : 0.0);
+      const Box upper_right{points[k].x + radius, points[k].y - radius - height, width, height};
+      naive += overlap(upper_right, square(points[l]));
+    }
+  EXPECT_EQ(covered, 0.0);
+  EXPECT_GT(naive, 20.0);
+}
+
 }  // namespace
 }  // namespace perfora::report

@@ -244,10 +244,10 @@ TEST(Study, AnEmptyAndAFullPictureAreDrawn) {
 }
 
 /// Mean height of the pixels of a colour right of `left`; 0 where there are none.
-double mean_row(const Image& image, unsigned colour, int left) {
+double mean_row(const Image& image, unsigned colour, int left, int right = 1600) {
   double sum = 0.0, count = 0.0;
   for (int y = 0; y < image.height(); ++y)
-    for (int x = left; x < image.width(); ++x)
+    for (int x = left; x < std::min(right, image.width()); ++x)
       if (image.at(x, y) == colour) sum += y, count += 1.0;
   return count > 0.0 ? sum / count : 0.0;
 }
@@ -350,6 +350,25 @@ TEST(Comparison, ColoursSayTheDesign) {
   count(std::vector<LabelledRun>(40, {"one", "a", run}), blue);
   EXPECT_GT(Image(folder / "c.png").height(), height + 100);
   EXPECT_THROW(plot_comparison(two_designs, folder / "c.gif", {}), io::InputError);
+  EXPECT_THROW(plot_comparison({}, folder / "none.png", {}), io::InputError);
+}
+
+// The linear axis reaches to the highest first peak whatever the order, also beside a run that was stopped before its
+// peak was known: the same curve ends in the same row.
+TEST(Comparison, AxisIsThatOfTheFirstPeaks) {
+  const auto folder = fresh_folder("comparison-axis");
+  write_run(small_run(), folder / "R.h5");
+  const RunResult whole = read_run(folder / "R.h5");
+  RunResult stopped = whole;
+  stopped.summary.erase("first_peak_stress");
+  for (Column& column : stopped.history)
+    for (double& value : column.values)
+      if (column.name == "stress_yy") value *= 1e-3;
+  plot_comparison({{"one", "a", whole}, {"two", "b", stopped}}, folder / "ab.png", {});
+  plot_comparison({{"two", "b", stopped}, {"one", "a", whole}}, folder / "ba.png", {});
+  constexpr int charts_left = 130, charts_right = 1000;  // the table stands right of them
+  EXPECT_NEAR(mean_row(Image(folder / "ab.png"), 0x0072b2, charts_left, charts_right),
+              mean_row(Image(folder / "ba.png"), 0xe69f00, charts_left, charts_right), 2.0);
 }
 
 }  // namespace
