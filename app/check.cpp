@@ -136,8 +136,8 @@ int check_sweep(const CheckFlags& flags) {
   const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides(), flags.only);
   json cases = json::array();
   std::string text = "Sweep\n";
-  double seconds = 0.0, longest = 0.0, most_memory = 0.0;
-  int described = 0;  // the case that takes longest stands for all
+  double seconds = 0.0, longest = -1.0, most_memory = 0.0;
+  int described = 0;  // the case that takes longest stands for all; read_sweep() sees that one can be run
   std::optional<optimize::DesignFile> dearest;
   std::set<std::string> designs;
   for (const optimize::SweepCase& one : sweep.cases) {
@@ -165,8 +165,8 @@ int check_sweep(const CheckFlags& flags) {
   text += line(fmt::format("time with {} at once, roughly", workers), duration_text(seconds));
   const json object = {
       {"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}, {"described_case", described}};
-  return report(flags, "sweep", object, text, dearest ? *dearest : *sweep.start, sweep.warnings,
-                dearest ? fmt::format(" of case {}, the longest", described) : "", most_memory);
+  return report(flags, "sweep", object, text, dearest.value(), sweep.warnings,
+                fmt::format(" of case {}, the longest", described), most_memory);
 }
 
 int check_calibration(const CheckFlags& flags) {

@@ -115,6 +115,13 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
   command.add_flag("--force", flags.force, "Replace an output that exists")->group(output_group);
 }
 
+void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what) {
+  command.add_option("--only", only, "Only the cases that have TEXT in their name (repeatable)" + what)
+      ->check([](const std::string& text) { return text.empty() ? std::string("a text is wanted") : std::string(); })
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+}
+
 void print_json(const nlohmann::json& object) {
   print_text(finite(object).dump(2) + "\n");
 }

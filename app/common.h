@@ -1,4 +1,4 @@
-// What is here: flags every subcommand takes, exit codes, the JSON on standard output, stop signals.
+// What is here: flags every subcommand takes or several share, exit codes, the JSON on standard output, stop signals.
 // What is not: the work of any subcommand.
 #pragma once
 
@@ -46,6 +46,9 @@ struct CommonFlags {
 /// Which of the common flags mean something for a subcommand; the others are accepted, hidden and without effect.
 enum class Uses { design, files_only };
 void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses = Uses::design);
+
+/// --only: cases of a sweep by their labels; `what` follows "Only the cases that have TEXT in their name (repeatable)".
+void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what = "");
 
 /// The one JSON object on standard output, two-space indent; NaN and infinity become null.
 void print_json(const nlohmann::json& object);

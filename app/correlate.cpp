@@ -7,7 +7,6 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/workers.h"
 #include "io/error.h"
 #include "optimize/sweep.h"
 #include "optimize/sweep_record.h"

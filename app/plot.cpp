@@ -60,7 +60,7 @@ std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
     std::string label =
         twice ? (fs::absolute(file).parent_path().filename() / file.stem()).string() : file.stem().string();
     if (run.status != "completed") label += " (" + run.status + ")";
-    runs.push_back({std::move(label), std::move(design), std::move(run)});
+    runs.push_back({std::move(label), std::move(run), std::move(design)});
   }
   return runs;
 }

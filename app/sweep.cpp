@@ -127,7 +127,7 @@ bool draw_collapse(const optimize::SweepRun& run) {
   for (const SweepCase& one : run.sweep().cases) {
     if (!run.known(one, 0)) continue;
     const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0).key());
-    if (fs::exists(file)) rows.push_back({one.label, "", report::read_run(file)});
+    if (fs::exists(file)) rows.push_back({one.label, report::read_run(file)});
   }
   report::PlotOptions options;
   options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 0)";

@@ -29,13 +29,6 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers
   };
 }
 
-void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what) {
-  command.add_option("--only", only, "Only the cases that have TEXT in their name (repeatable)" + what)
-      ->check([](const std::string& text) { return text.empty() ? std::string("a text is wanted") : std::string(); })
-      ->type_name("TEXT")
-      ->allow_extra_args(false);
-}
-
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
       .add_option("--workers", workers,

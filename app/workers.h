@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "optimize/executor.h"
 
@@ -14,9 +13,6 @@ namespace perfora::app {
 
 /// Makes an executor of `workers` child processes that share `threads` threads.
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads);
-
-/// --only: cases of a sweep by their labels; `what` follows "Only the cases that have TEXT in their name (repeatable)".
-void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what = "");
 
 /// --workers; `what` the file says otherwise ("study").
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what);

@@ -135,15 +135,21 @@ void Canvas::text_upright(double x, double y, const std::string& text, const Tex
   cairo_restore(context_);
 }
 
-std::string Canvas::fit(const std::string& text, double width, const TextStyle& style) {
+std::string Canvas::fit(const std::string& text, double width, const TextStyle& style, Keep keep) {
   if (text_width(text, style) <= width) return text;
   std::string shorter = text;
+  const auto shown = [&] { return keep == Keep::begin ? shorter + "..." : "..." + shorter; };
   const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; };
-  while (!shorter.empty() && text_width(shorter + "...", style) > width) {
-    while (shorter.size() > 1 && continues(shorter.back())) shorter.pop_back();
-    shorter.pop_back();
+  while (!shorter.empty() && text_width(shown(), style) > width) {  // whole characters of UTF-8
+    if (keep == Keep::begin) {
+      while (shorter.size() > 1 && continues(shorter.back())) shorter.pop_back();
+      shorter.pop_back();
+    } else {
+      shorter.erase(0, 1);
+      while (!shorter.empty() && continues(shorter.front())) shorter.erase(0, 1);
+    }
   }
-  return shorter + "...";
+  return shown();
 }
 
 void Canvas::line(double x0, double y0, double x1, double y1, const Colour& colour, double thickness,

@@ -61,6 +61,9 @@ struct TextStyle {
   bool halo = false;  ///< white rim, for text that lies over lines
 };
 
+/// What is left of a text that is too wide.
+enum class Keep { begin, end };
+
 /// One page. The extension of `path` says the kind; throws io::InputError for another than .png, .svg, .pdf (before
 /// anything is drawn).
 class Canvas {
@@ -81,8 +84,8 @@ class Canvas {
   /// Text turned by 90 degrees to the left, centred on (x, y).
   void text_upright(double x, double y, const std::string& text, const TextStyle& style = {});
   double text_width(const std::string& text, const TextStyle& style = {});
-  /// `text` with its end replaced by "..." where it is wider than `width`.
-  std::string fit(const std::string& text, double width, const TextStyle& style = {});
+  /// `text` where it is not wider than `width`; else what fits of the part that `keep` says, with "..." for the rest.
+  std::string fit(const std::string& text, double width, const TextStyle& style = {}, Keep keep = Keep::begin);
   void line(double x0, double y0, double x1, double y1, const Colour& colour, double thickness = 1.0,
             const std::vector<double>& dashes = {});
   void fill(const Box& box, const Colour& colour, double opacity = 1.0);

@@ -39,8 +39,8 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
 /// One run of a picture of several.
 struct LabelledRun {
   std::string label;
-  std::string design;  ///< runs of one design (other seeds) share it; plot_comparison only
   RunResult run;
+  std::string design = {};  ///< runs of one design (other seeds) share it; plot_comparison only
 };
 
 /// How runs collapse: a row a run (up to eight of its frames side by side, all to one scale within the row, with strain

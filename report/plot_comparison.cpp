@@ -95,13 +95,6 @@ std::string window_text(const std::vector<LabelledRun>& rows, const Window& wind
   return any ? "; the plateau windows of these runs differ" : "";
 }
 
-/// `text` with its begin left out where it is wider than `width`: names of files differ at their end.
-std::string end_of(Canvas& canvas, const std::string& text, double width, const TextStyle& style) {
-  std::string shorter = text;
-  while (!shorter.empty() && canvas.text_width("..." + shorter, style) > width) shorter.erase(0, 1);
-  return canvas.text_width(text, style) <= width ? text : "..." + shorter;
-}
-
 void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& window) {
   double end = 0.0, peak = 0.0, highest = 0.0, lowest = INFINITY;
   for (const Drawn& one : all) {
@@ -175,7 +168,8 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
   for (const Drawn& one : all) {
     y += table_line;
     canvas.line(table_left, y - 5.0, table_left + 24.0, y - 5.0, one.colour, 4.0);
-    canvas.text(table_left + 34.0, y, end_of(canvas, one.row->label, fields_left - table_left - 44.0, name), name);
+    canvas.text(table_left + 34.0, y, canvas.fit(one.row->label, fields_left - table_left - 44.0, name, Keep::end),
+                name);  // names of files differ at their ends
     x = fields_left;
     for (const Field& field : fields) {
       const auto number = summary_number(one.row->run.summary, field.key);

@@ -306,8 +306,8 @@ TEST(Collapse, ARowARun) {
   const auto folder = fresh_folder("collapse");
   write_run(small_run(), folder / "R.h5");
   const RunResult run = read_run(folder / "R.h5");
-  plot_collapse({{"one", "", run}}, folder / "one.png", {});
-  plot_collapse({{"one", "", run}, {"two", "", run}}, folder / "two.png", {});
+  plot_collapse({{"one", run}}, folder / "one.png", {});
+  plot_collapse({{"one", run}, {"two", run}}, folder / "two.png", {});
   const Image one(folder / "one.png"), two(folder / "two.png");
   EXPECT_EQ(one.width(), 1600);
   EXPECT_GT(two.height(), one.height() + 100);
@@ -339,15 +339,15 @@ TEST(Comparison, ColoursSayTheDesign) {
       for (int x = 0; x < image.width(); ++x) found += image.at(x, y) == colour;
     return found;
   };
-  const std::vector<LabelledRun> two_designs{{"one", "a", run}, {"two", "b", run}};
+  const std::vector<LabelledRun> two_designs{{"one", run, "a"}, {"two", run, "b"}};
   EXPECT_GT(count(two_designs, blue), 50);
   EXPECT_GT(count(two_designs, orange), 50);
-  const std::vector<LabelledRun> three_runs{{"one", "a", run}, {"two", "a", run}, {"three", "b", run}};
+  const std::vector<LabelledRun> three_runs{{"one", run, "a"}, {"two", run, "a"}, {"three", run, "b"}};
   EXPECT_GT(count(three_runs, light_blue), 50);
   EXPECT_GT(count(three_runs, orange), 50);
-  EXPECT_GT(count({{"one", "a", run}, {"two", "a", run}}, orange), 50) << "one design only: a colour a run";
+  EXPECT_GT(count({{"one", run, "a"}, {"two", run, "a"}}, orange), 50) << "one design only: a colour a run";
   const int height = Image(folder / "c.png").height();
-  count(std::vector<LabelledRun>(40, {"one", "a", run}), blue);
+  count(std::vector<LabelledRun>(40, {"one", run, "a"}), blue);
   EXPECT_GT(Image(folder / "c.png").height(), height + 100);
   EXPECT_THROW(plot_comparison(two_designs, folder / "c.gif", {}), io::InputError);
   EXPECT_THROW(plot_comparison({}, folder / "none.png", {}), io::InputError);
@@ -364,8 +364,8 @@ TEST(Comparison, AxisIsThatOfTheFirstPeaks) {
   for (Column& column : stopped.history)
     for (double& value : column.values)
       if (column.name == "stress_yy") value *= 1e-3;
-  plot_comparison({{"one", "a", whole}, {"two", "b", stopped}}, folder / "ab.png", {});
-  plot_comparison({{"two", "b", stopped}, {"one", "a", whole}}, folder / "ba.png", {});
+  plot_comparison({{"one", whole, "a"}, {"two", stopped, "b"}}, folder / "ab.png", {});
+  plot_comparison({{"two", stopped, "b"}, {"one", whole, "a"}}, folder / "ba.png", {});
   constexpr int charts_left = 130, charts_right = 1000;  // the table stands right of them
   EXPECT_NEAR(mean_row(Image(folder / "ab.png"), 0x0072b2, charts_left, charts_right),
               mean_row(Image(folder / "ba.png"), 0xe69f00, charts_left, charts_right), 2.0);
