@@ -1,12 +1,12 @@
 // What is here: `perfora calibrate`: bond parameters for wanted constants of the material. What is not: the search
-// (optimize/calibration.h), the chart (report/plot_reachable.cpp).
+// (optimize/search/calibration.h), the chart (report/plot_reachable.cpp).
 #include <fmt/format.h>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "io/error.h"
-#include "optimize/calibration.h"
+#include "optimize/search/calibration.h"
 #include "report/plot.h"
 
 namespace perfora::app {

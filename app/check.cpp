@@ -1,5 +1,5 @@
 // What is here: `perfora check`: what a design, a study, a sweep or a calibration would run, without placing a disc.
-// What is not: the estimates (optimize/estimate.h).
+// What is not: the estimates (optimize/evaluate/estimate.h).
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,10 +12,10 @@
 #include "app/summary_text.h"
 #include "app/workers.h"
 #include "io/schema.h"
-#include "optimize/calibration.h"
-#include "optimize/estimate.h"
-#include "optimize/study.h"
-#include "optimize/sweep.h"
+#include "optimize/campaign/sweep.h"
+#include "optimize/evaluate/estimate.h"
+#include "optimize/search/calibration.h"
+#include "optimize/search/study.h"
 
 namespace perfora::app {
 

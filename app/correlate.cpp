@@ -1,5 +1,5 @@
 // What is here: `perfora correlate`: do cheap sweeps rank the same cases as a dear one does? What is not: the
-// comparison (optimize/sweep_record.h), drawing (report/).
+// comparison (optimize/campaign/sweep_record.h), drawing (report/).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
-#include "optimize/sweep.h"
-#include "optimize/sweep_record.h"
+#include "optimize/campaign/sweep.h"
+#include "optimize/campaign/sweep_record.h"
 #include "report/plot_correlation.h"
 
 namespace perfora::app {

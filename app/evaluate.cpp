@@ -1,6 +1,6 @@
 // What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), an ensemble of replicates in a folder,
-// or the elastic answer alone. What is not: the evaluation (optimize/evaluation.h, optimize/elastic_answer.h),
-// statistics (optimize/ensemble.h).
+// or the elastic answer alone. What is not: the evaluation (optimize/evaluate/evaluation.h,
+// optimize/evaluate/elastic_answer.h), statistics (optimize/campaign/ensemble.h).
 #include <fmt/format.h>
 
 #include <array>
@@ -11,9 +11,9 @@
 #include "app/outputs.h"
 #include "app/summary_text.h"
 #include "io/error.h"
-#include "optimize/elastic_answer.h"
-#include "optimize/ensemble.h"
-#include "optimize/evaluation.h"
+#include "optimize/campaign/ensemble.h"
+#include "optimize/evaluate/elastic_answer.h"
+#include "optimize/evaluate/evaluation.h"
 
 namespace perfora::app {
 

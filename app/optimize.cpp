@@ -1,6 +1,6 @@
 // What is here: `perfora optimize`: the search of a study file carried out in a folder by worker processes, then the
-// best design's run file and pictures. What is not: the search (optimize/driver.h), its folder (optimize/study_run.h),
-// drawing (report/).
+// best design's run file and pictures. What is not: the search (optimize/search/driver.h), its folder
+// (optimize/search/study_run.h), drawing (report/).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 #include "app/workers.h"
 #include "geometry/layout.h"
 #include "io/hdf5.h"
-#include "optimize/evaluation.h"
-#include "optimize/study_result.h"
-#include "optimize/study_run.h"
+#include "io/text.h"
+#include "optimize/evaluate/evaluation.h"
+#include "optimize/search/study_result.h"
+#include "optimize/search/study_run.h"
 #include "report/plot.h"
 #include "report/plot_study.h"
 #include "solver/run.h"
@@ -122,13 +123,13 @@ void add_facts(report::StudyPicture& picture, const optimize::StudyRun& run) {
   const Candidate& start = *run.plan().start.candidate;
   const auto& schema = study.start->schema();
   for (const optimize::ArmChoice& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
-    picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), optimize::value_text(choice.value),
-                             optimize::value_text(schema.find(choice.key)->get())});
+    picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::value_text(choice.value),
+                             io::value_text(schema.find(choice.key)->get())});
   for (std::size_t k = 0; k < study.variables.size(); ++k) {
     const auto& variable = study.variables[k];
     picture.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
-                             optimize::readable(best.values[k], variable.dimension),
-                             optimize::readable(start.values[k], variable.dimension)});
+                             io::readable(best.values[k], variable.dimension),
+                             io::readable(start.values[k], variable.dimension)});
   }
   picture.facts.push_back(
       {"thinnest wall", length_text(best.layout.thinnest_wall), length_text(start.layout.thinnest_wall)});

@@ -7,7 +7,7 @@
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "io/memory.h"
-#include "optimize/evaluation.h"
+#include "optimize/evaluate/evaluation.h"
 
 namespace perfora::app {
 

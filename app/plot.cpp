@@ -10,7 +10,7 @@
 #include "app/common.h"
 #include "io/error.h"
 #include "io/hdf5.h"
-#include "optimize/design.h"
+#include "optimize/evaluate/design.h"
 
 namespace perfora::app {
 

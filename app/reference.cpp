@@ -2,10 +2,10 @@
 // the table of keys that reads them. What is not: the text around it (docs/design-files.md).
 #include "app/commands.h"
 #include "app/common.h"
-#include "optimize/calibration.h"
-#include "optimize/design.h"
-#include "optimize/study.h"
-#include "optimize/sweep.h"
+#include "optimize/campaign/sweep.h"
+#include "optimize/evaluate/design.h"
+#include "optimize/search/calibration.h"
+#include "optimize/search/study.h"
 
 namespace perfora::app {
 

@@ -1,5 +1,5 @@
 // What is here: the readable form of the JSON objects perfora prints and stores in its files: aligned, in kPa, mm, %.
-// What is not: the objects themselves (optimize/json.cpp).
+// What is not: the objects themselves (optimize/evaluate/json.cpp).
 #pragma once
 
 #include <nlohmann/json.hpp>

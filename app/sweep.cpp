@@ -1,5 +1,6 @@
 // What is here: `perfora sweep`: every case of a sweep file simulated by worker processes in a folder, then its tables
-// and picture. What is not: the cases (optimize/sweep.h), the runs (optimize/sweep_run.h), drawing (report/).
+// and picture. What is not: the cases (optimize/campaign/sweep.h), the runs (optimize/campaign/sweep_run.h), drawing
+// (report/).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "app/workers.h"
-#include "optimize/study.h"
-#include "optimize/sweep_result.h"
+#include "io/text.h"
+#include "optimize/campaign/sweep_result.h"
+#include "optimize/search/study.h"
 #include "report/plot.h"
 #include "report/plot_sweep.h"
 #include "solver/run.h"
@@ -63,7 +65,7 @@ report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one)
     const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     report::SweepValue value;
     for (const std::vector<double>& all : reached) value.replicates.push_back(all[place]);
-    const optimize::Statistic statistic = optimize::statistic_of(name, value.replicates);
+    const results::Statistic statistic = results::statistic_of(name, value.replicates);
     value.mean = statistic.mean;
     value.half_interval = statistic.confidence_95;
     point.values.push_back(std::move(value));
@@ -77,11 +79,11 @@ struct Names {
   std::string axis, place, series;
 };
 Names names_of(const Sweep& sweep, const SweepCase& one) {
-  if (!one.group.empty()) return {one.settings.back().key, optimize::readable(one.settings.back().value), ""};
+  if (!one.group.empty()) return {one.settings.back().key, io::readable(one.settings.back().value), ""};
   for (const optimize::SweepSetting& setting : one.settings) {
     if (setting.key != sweep.grid_key) continue;
-    const std::string place = optimize::readable(setting.value);
-    const std::string part = optimize::after_section(setting.key) + " " + place;
+    const std::string place = io::readable(setting.value);
+    const std::string part = io::after_section(setting.key) + " " + place;
     std::string series = one.label;
     if (const auto at = series.rfind(part); at != std::string::npos) {
       const std::size_t before = at >= 2 ? at - 2 : 0;  // with the comma before it, or behind it where it comes first

@@ -1,5 +1,5 @@
-// What is here: the readable table of a sweep's record. What is not: the record (optimize/sweep_result.h), other
-// summaries (summary_text.h).
+// What is here: the readable table of a sweep's record. What is not: the record (optimize/campaign/sweep_result.h),
+// other summaries (summary_text.h).
 #pragma once
 
 #include <nlohmann/json.hpp>

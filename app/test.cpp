@@ -1,12 +1,12 @@
 // What is here: `perfora test`: tests of a design's solid material (T.h5, T.png). What is not: the tests
-// (optimize/material_tests.h), the picture (report/plot_material.cpp).
+// (optimize/evaluate/material_tests.h), the picture (report/plot_material.cpp).
 #include <fmt/format.h>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/summary_text.h"
 #include "io/error.h"
-#include "optimize/material_tests.h"
+#include "optimize/evaluate/material_tests.h"
 #include "report/plot.h"
 
 namespace perfora::app {

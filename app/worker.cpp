@@ -1,12 +1,12 @@
 // What is here: the hidden subcommand `worker`: one Request (JSON) a line on standard input, one Evaluation (JSON, with
 // its curve) a line on standard output, until standard input ends. What is not: who starts workers
-// (optimize/executor.h).
+// (optimize/campaign/executor.h).
 #include <iostream>
 #include <string>
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "optimize/evaluation.h"
+#include "optimize/evaluate/evaluation.h"
 
 namespace perfora::app {
 

@@ -1,5 +1,5 @@
 // What is here: how studies and sweeps come to worker processes: this program again, as `perfora worker`. What is not:
-// the workers' loop (worker.cpp), what carries requests to them (optimize/executor.h).
+// the workers' loop (worker.cpp), what carries requests to them (optimize/campaign/executor.h).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "optimize/executor.h"
+#include "optimize/campaign/executor.h"
 
 namespace perfora::app {
 

@@ -13,7 +13,7 @@ if(TARGET perfora)
   install(TARGETS perfora RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-foreach(room IN ITEMS io geometry solver optimize report)
+foreach(room IN ITEMS io geometry results solver optimize report)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perfora FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/designs DESTINATION ${CMAKE_INSTALL_DATADIR}/perfora)

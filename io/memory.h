@@ -1,4 +1,4 @@
-// What is here: how much memory this process has taken. What is not: estimates (optimize/estimate.h).
+// What is here: how much memory this process has taken. What is not: estimates (optimize/evaluate/estimate.h).
 #pragma once
 
 namespace perfora::io {

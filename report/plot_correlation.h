@@ -1,5 +1,5 @@
 // What is here: the picture of sweeps compared case by case. Plain data in, picture out. What is not: the comparison
-// (optimize/sweep_record.h).
+// (optimize/campaign/sweep_record.h).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // What is here: the chart of a calibration: which ratios of strengths can be reached. What is not: the search
-// (optimize/calibration.h).
+// (optimize/search/calibration.h).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What is here: the bond law and the contact law as parameter structs and pure inline functions from scalars to scalars
-// (history in, history out). What is not: loops, discs, lists (kernels_*.cpp, contacts.cpp). Only IEEE basic operations
+// (history in, history out). What is not: loops, discs, lists (kernels/). Only IEEE basic operations
 // and sqrt, so that bits do not depend on a maths library. Sources: paper, Fig. 3 and Table 1; docs/theory.md for what
 // the paper leaves open.
 #pragma once
@@ -247,5 +247,12 @@ inline ContactForce contact_opening(const ContactLaw& law, double v_n, double v_
   history = {};
   return lost;
 }
+
+/// Factor on the critical displacements for this disc size (docs/theory.md, "Resolution").
+double threshold_factor(const MaterialOptions& material, double mean_diameter);
+
+/// The law of a design's material for this disc size.
+BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter);
+ContactLaw make_contact_law(const MaterialOptions& material);
 
 }  // namespace perfora::solver

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/laws.h"
+
 namespace perfora::solver {
 namespace {
 
@@ -128,19 +130,6 @@ double contact_critical_step(const MassProperties& masses, const MaterialOptions
     least = std::min(least, (std::sqrt(c * c + 4.0 * k * m) - c) / k);
   }
   return least;
-}
-
-double threshold_factor(const MaterialOptions& material, double mean_diameter) {
-  const double ratio = mean_diameter / material.reference_mean_diameter;
-  switch (material.threshold_scaling) {
-    case ThresholdScaling::strength:
-      return ratio;
-    case ThresholdScaling::toughness:
-      return std::sqrt(ratio);
-    case ThresholdScaling::none:
-      break;
-  }
-  return 1.0;
 }
 
 double voigt_modulus(const MaterialOptions& material, double bond_density) {

@@ -62,7 +62,4 @@ struct BlockMeans {
 };
 LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options);
 
-/// Factor on the critical displacements for this disc size (docs/theory.md, "Resolution").
-double threshold_factor(const MaterialOptions& material, double mean_diameter);
-
 }  // namespace perfora::solver

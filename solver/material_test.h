@@ -1,6 +1,6 @@
 // What is here: one test of the solid material on a periodic sample: tension, compression, simple shear, oedometric,
-// with stress-free sides where the test has them. What is not: which samples and how many (optimize/material_tests.h),
-// files.
+// with stress-free sides where the test has them. What is not: which samples and how many
+// (optimize/evaluate/material_tests.h), files.
 #pragma once
 
 #include <cstdint>

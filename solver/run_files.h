@@ -9,7 +9,7 @@
 
 #include "solver/frame.h"
 #include "solver/response.h"
-#include "solver/run.h"
+#include "solver/run_request.h"
 #include "solver/simulation.h"
 
 namespace perfora::io {

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "io/error.h"
-#include "solver/kernels.h"
+#include "solver/kernels/kernels.h"
+#include "solver/run.h"
 
 namespace perfora::solver {
 

@@ -7,7 +7,7 @@
 #include "solver/bond_network.h"
 #include "solver/loading_rate.h"
 #include "solver/mass.h"
-#include "solver/run.h"
+#include "solver/run_request.h"
 #include "solver/specimen.h"
 
 namespace perfora::solver {

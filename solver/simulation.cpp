@@ -40,37 +40,6 @@ int record_shift(const CellMatrix& start, double longest_bond, double longest_co
 
 }  // namespace
 
-void DiscState::resize(std::size_t n) {
-  for (auto* field : {&sx, &sy, &turn, &sx_before, &sy_before, &turn_before}) field->assign(n, 0);
-  for (auto* field : {&vx, &vy, &omega, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
-  record.resize(n);
-  motion.resize(n);
-}
-
-void DiscState::set_angle(std::size_t disc, double angle) {
-  const double turns = angle / (4.0 * std::numbers::pi);
-  turn[disc] = fixed_point(turns - std::floor(turns));
-}
-
-BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {
-  const double factor = threshold_factor(material, mean_diameter);
-  BondLaw law;
-  law.normal_stiffness = material.normal_stiffness;
-  law.tangential_stiffness = material.tangential_stiffness;
-  law.inverse_critical_normal = 1.0 / (material.critical_normal_stretch * factor);
-  law.inverse_critical_shear = 1.0 / (material.critical_shear_displacement * factor);
-  law.twice_alpha = static_cast<int>(std::lround(2.0 * material.yield_exponent));
-  law.rupture_delay = material.rupture_delay;
-  law.damage_form = material.damage_form;
-  law.damage_in_compression = material.damage_in_compression;
-  return law;
-}
-
-ContactLaw make_contact_law(const MaterialOptions& material) {
-  return {material.normal_stiffness, material.tangential_stiffness, material.friction_coefficient,
-          material.viscous_rate};
-}
-
 Simulation::Simulation(SimulationInput input)
     : options_(std::move(input.options)),
       cell_(input.cell),

@@ -10,7 +10,7 @@
 #include "solver/cell.h"
 #include "solver/damping.h"
 #include "solver/integrator.h"
-#include "solver/kernels.h"
+#include "solver/kernels/kernels.h"
 #include "solver/loading_rate.h"
 #include "solver/mass.h"
 #include "solver/options.h"
@@ -161,9 +161,5 @@ class Simulation {
   std::vector<KickSums> chunk_sums_;
   Progress progress_;
 };
-
-/// The law of a design's material for this disc size.
-BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter);
-ContactLaw make_contact_law(const MaterialOptions& material);
 
 }  // namespace perfora::solver

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/kernels.h"
+#include "solver/kernels/kernels.h"
 #include "solver/specimen.h"
 
 namespace perfora::solver {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "solver/bond_rows.h"
 #include "solver/integrator.h"
+#include "solver/kernels/bond_rows.h"
 #include "tests/benchmarks/table1_block.h"
 
 namespace perfora::benchmarks {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "solver/kernels.h"
+#include "solver/kernels/kernels.h"
 #include "tests/solver/sample_packings.h"
 
 namespace perfora::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "solver/elastic.h"
+#include "solver/elastic/elastic.h"
 #include "tests/solver/bounded_block.h"
 
 namespace perfora::solver {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/elastic.h"
-#include "solver/first_yield.h"
+#include "solver/elastic/elastic.h"
+#include "solver/elastic/first_yield.h"
 #include "tests/solver/sample_packings.h"
 
 namespace perfora::solver {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "geometry/make_packing.h"
-#include "solver/elastic.h"
-#include "solver/first_yield.h"
+#include "solver/elastic/elastic.h"
+#include "solver/elastic/first_yield.h"
 #include "tests/solver/sample_packings.h"
 
 namespace perfora::solver {

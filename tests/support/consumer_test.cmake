@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-foreach(expected IN ITEMS bin/perfora include/perfora/optimize/evaluation.h share/perfora/designs)
+foreach(expected IN ITEMS bin/perfora include/perfora/optimize/evaluate/evaluation.h share/perfora/designs)
   if(NOT EXISTS ${WORK}/prefix/${expected})
     message(FATAL_ERROR "not installed: ${expected}")
   endif()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace perfora::test {
@@ -19,7 +20,8 @@ struct Confined {
 const std::vector<Confined>& confined_libraries() {
   static const std::vector<Confined> list = {
       {std::regex("CGAL/.*"), std::regex("geometry/[^/]+\\.cpp"), "CGAL belongs in geometry/*.cpp only"},
-      {std::regex("nlopt\\.h(pp)?"), std::regex("optimize/[^/]+\\.cpp"), "NLopt belongs in one optimize/*.cpp only"},
+      {std::regex("nlopt\\.h(pp)?"), std::regex("optimize/search/[^/]+\\.cpp"),
+       "NLopt belongs in one optimize/search/*.cpp only"},
       {std::regex("toml\\+\\+/.*|toml\\.hpp"), std::regex("io/[^/]+\\.cpp"), "toml++ belongs in one io/*.cpp only"},
       {std::regex("H5.*|hdf5(_hl)?\\.h"), std::regex("io/hdf5(_[a-z]+)?\\.cpp|io/hdf5_[a-z]+\\.h"),
        "HDF5's C API belongs in io/hdf5*.cpp only"},
@@ -27,23 +29,24 @@ const std::vector<Confined>& confined_libraries() {
   return list;
 }
 
-/// Rank of the room a path begins with, or -1.
-int room_rank(const std::string& path) {
-  const auto found = std::find(rooms.begin(), rooms.end(), path.substr(0, path.find('/')));
-  if (found == rooms.end() || path.find('/') == std::string::npos) return -1;
-  return static_cast<int>(found - rooms.begin());
+bool lies_in(const std::string& path, const std::string& folder) {
+  return path.rfind(folder + "/", 0) == 0;
+}
+
+/// The room a path lies in, or nullptr.
+const Room* room_of(const std::string& path) {
+  const auto found =
+      std::find_if(rooms.begin(), rooms.end(), [&](const Room& room) { return lies_in(path, room.name); });
+  return found == rooms.end() ? nullptr : &*found;
 }
 
 void check_include(const std::string& path, const std::string& include, std::vector<std::string>& out) {
-  const int from = room_rank(path);
-  const int to = room_rank(include);
+  const Room* from = room_of(path);
+  const Room* to = room_of(include);
   if (include.find("..") != std::string::npos)
     out.push_back(path + ": include \"" + include + "\" by its room, not by \"..\"");
-  if (to > from) {
-    const auto room = static_cast<std::size_t>(from);
-    out.push_back(path + ": includes " + include + ", but " + rooms[room] + " knows nothing of " +
-                  rooms[static_cast<std::size_t>(to)]);
-  }
+  if (to && to != from && std::find(from->knows.begin(), from->knows.end(), to->name) == from->knows.end())
+    out.push_back(path + ": includes " + include + ", but " + from->name + " knows nothing of " + to->name);
   for (const auto& library : confined_libraries())
     if (std::regex_match(include, library.include) && !std::regex_match(path, library.allowed_in))
       out.push_back(path + ": includes <" + include + ">: " + library.sentence);
@@ -69,10 +72,28 @@ std::vector<std::string> violations(const std::string& path, std::string_view te
   if (lines > maximum_lines)
     out.push_back(path + ": " + std::to_string(lines) + " lines; at most " + std::to_string(maximum_lines) +
                   " are read in one go; split it");
-  if (room_rank(path) >= 0)
+  if (room_of(path))
     for (const auto& include : includes_of(text)) check_include(path, include, out);
   return out;
 }
+
+namespace {
+
+/// Files that `path` includes, directly or through others.
+std::set<std::string> reached_from(const std::string& path, const std::map<std::string, std::string>& files) {
+  std::set<std::string> reached;
+  std::vector<std::string> waiting = {path};
+  while (!waiting.empty()) {
+    const auto file = files.find(waiting.back());
+    waiting.pop_back();
+    if (file == files.end()) continue;
+    for (const auto& include : includes_of(file->second))
+      if (reached.insert(include).second) waiting.push_back(include);
+  }
+  return reached;
+}
+
+}  // namespace
 
 std::vector<std::string> violations_together(const std::map<std::string, std::string>& files) {
   std::vector<std::string> out;
@@ -83,10 +104,20 @@ std::vector<std::string> violations_together(const std::map<std::string, std::st
       const bool uses = std::any_of(includes.begin(), includes.end(), [&](const std::string& include) {
         return include.rfind(name + ".h", 0) == 0 || include.rfind(name + "++/", 0) == 0;
       });
-      if (room_rank(path) >= 0 && uses) users.push_back(path);
+      if (room_of(path) && uses) users.push_back(path);
     }
     if (users.size() > 1) out.push_back(users[1] + ": a second file besides " + users[0] + " includes " + name);
   }
+  for (const auto& [path, text] : files)
+    for (const auto& folder : solver_rooms) {
+      if (!lies_in(path, folder)) continue;
+      for (const auto& include : includes_of(text)) {
+        if (lies_in(include, folder)) continue;
+        for (const auto& further : reached_from(include, files))
+          if (lies_in(further, folder))
+            out.push_back(path + ": includes " + include + ", which includes " + further + " of this folder");
+      }
+    }
   return out;
 }
 

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "optimize/design.h"
+#include "optimize/evaluate/design.h"
 
 namespace perfora::test {
 namespace {

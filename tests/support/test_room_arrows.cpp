@@ -20,8 +20,8 @@ using ::testing::IsEmpty;
 std::map<std::string, std::string> project_sources() {
   const fs::path source = PERFORA_SOURCE_DIR;
   std::map<std::string, std::string> files;
-  auto folders = rooms;
-  folders.push_back("tests");
+  const std::vector<std::string> folders = {"io",       "geometry", "results", "solver",
+                                            "optimize", "report",   "app",     "tests"};
   for (const auto& folder : folders) {
     if (!fs::exists(source / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
@@ -79,17 +79,23 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"io/x.h", "\"geometry/layout.h\"", "io knows nothing of geometry"},
         Case{"geometry/x.cpp", "<solver/run.h>", "geometry knows nothing of solver"},
-        Case{"solver/x.cpp", "\"optimize/design.h\"", "solver knows nothing of optimize"},
-        Case{"optimize/x.cpp", "\"report/plot.h\"", "optimize knows nothing of report"},
+        Case{"solver/x.cpp", "\"optimize/evaluate/design.h\"", "solver knows nothing of optimize/evaluate"},
+        Case{"optimize/search/x.cpp", "\"report/plot.h\"", "optimize/search knows nothing of report"},
+        Case{"optimize/evaluate/x.h", "\"optimize/campaign/sweep.h\"", "evaluate knows nothing of optimize/campaign"},
+        Case{"optimize/campaign/x.h", "\"optimize/search/study.h\"", "campaign knows nothing of optimize/search"},
+        Case{"optimize/search/x.h", "\"optimize/campaign/sweep.h\"", ""},
+        Case{"results/x.h", "\"solver/run.h\"", "results knows nothing of solver"},
         Case{"report/x.cpp", "\"app/common.h\"", "report knows nothing of app"},
         Case{"solver/x.cpp", "\"../io/error.h\"", "not by \"..\""}, Case{"app/x.cpp", "\"report/plot.h\"", ""},
-        Case{"report/x.cpp", "\"optimize/design.h\"", ""}, Case{"optimize/x.cpp", "\"solver/run.h\"", ""},
+        Case{"report/x.cpp", "\"optimize/evaluate/design.h\"", "report knows nothing of optimize/evaluate"},
+        Case{"report/x.cpp", "\"solver/run.h\"", "report knows nothing of solver"},
+        Case{"report/x.cpp", "\"results/statistic.h\"", ""}, Case{"optimize/evaluate/x.cpp", "\"solver/run.h\"", ""},
         Case{"solver/x.cpp", "\"geometry/packing.h\"", ""}, Case{"geometry/x.cpp", "\"io/error.h\"", ""},
         Case{"io/x.cpp", "\"io/error.h\"", ""}, Case{"geometry/x.cpp", "<CGAL/spatial_sort.h>", ""},
         Case{"geometry/x.h", "<CGAL/spatial_sort.h>", "CGAL belongs"},
-        Case{"solver/x.cpp", "<CGAL/spatial_sort.h>", "CGAL belongs"}, Case{"optimize/x.cpp", "<nlopt.hpp>", ""},
-        Case{"optimize/x.h", "<nlopt.hpp>", "NLopt belongs"}, Case{"app/x.cpp", "<nlopt.h>", "NLopt belongs"},
-        Case{"io/x.cpp", "<toml++/toml.h>", ""}, Case{"optimize/x.cpp", "<toml++/toml.h>", "toml++ belongs"},
+        Case{"solver/x.cpp", "<CGAL/spatial_sort.h>", "CGAL belongs"}, Case{"optimize/search/x.cpp", "<nlopt.hpp>", ""},
+        Case{"optimize/search/x.h", "<nlopt.hpp>", "NLopt belongs"}, Case{"app/x.cpp", "<nlopt.h>", "NLopt belongs"},
+        Case{"io/x.cpp", "<toml++/toml.h>", ""}, Case{"optimize/search/x.cpp", "<toml++/toml.h>", "toml++ belongs"},
         Case{"io/hdf5.cpp", "<hdf5.h>", ""}, Case{"io/hdf5_common.h", "<hdf5.h>", ""},
         Case{"io/hdf5.h", "<hdf5.h>", "HDF5's C API belongs"}, Case{"io/x.cpp", "<hdf5.h>", "HDF5's C API belongs"},
         Case{"report/x.cpp", "<H5Cpp.h>", "HDF5's C API belongs"}, Case{"tests/io/x.cpp", "<hdf5.h>", ""}));
@@ -109,11 +115,23 @@ TEST(RoomArrows, LongFilesAreRefused) {
 TEST(RoomArrows, OneFileAloneNamesNloptAndToml) {
   const std::string nlopt = "//\n#include <nlopt.hpp>\n";
   const std::string toml = "//\n#include <toml++/toml.h>\n";
-  EXPECT_THAT(violations_together({{"optimize/a.cpp", nlopt}, {"io/a.cpp", toml}}), IsEmpty());
-  EXPECT_THAT(violations_together({{"optimize/a.cpp", nlopt}, {"optimize/b.cpp", nlopt}}),
-              ElementsAre(HasSubstr("optimize/b.cpp: a second file")));
+  EXPECT_THAT(violations_together({{"optimize/search/a.cpp", nlopt}, {"io/a.cpp", toml}}), IsEmpty());
+  EXPECT_THAT(violations_together({{"optimize/search/a.cpp", nlopt}, {"optimize/search/b.cpp", nlopt}}),
+              ElementsAre(HasSubstr("optimize/search/b.cpp: a second file")));
   EXPECT_THAT(violations_together({{"io/a.cpp", toml}, {"io/b.cpp", toml}}),
               ElementsAre(HasSubstr("io/b.cpp: a second file")));
+}
+
+TEST(RoomArrows, FolderInsideTheSolverStandsOnItsOwn) {
+  const std::string none = "//\n", kernel = "//\n#include \"solver/kernels/kernels.h\"\n";
+  EXPECT_THAT(violations_together({{"solver/kernels/kernels.h", "//\n#include \"solver/state.h\"\n"},
+                                   {"solver/state.h", none},
+                                   {"solver/run.h", kernel}}),
+              IsEmpty());
+  EXPECT_THAT(violations_together({{"solver/kernels/kernels.h", "//\n#include \"solver/run.h\"\n"},
+                                   {"solver/run.h", "//\n#include \"solver/simulation.h\"\n"},
+                                   {"solver/simulation.h", kernel}}),
+              ElementsAre(HasSubstr("which includes solver/kernels/kernels.h")));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
-#include "solver/elastic.h"
+#include "solver/elastic/elastic.h"
 #include "solver/run.h"
 #include "solver/run_setup.h"
 #include "solver/simulation.h"

@@ -1,5 +1,5 @@
 // What is here: elastic constants of plain packings in all three modes against Voigt's, and their convergence; the
-// solver's own quasi-static answer against the linear one (solver/elastic.h). What is not: holes
+// solver's own quasi-static answer against the linear one (solver/elastic/elastic.h). What is not: holes
 // (test_hole_arrays.cpp).
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
-// What is here: a program of someone else's: packs and crushes a small design through the library. What is not: anything but the public headers.
+// What is here: a program of someone else's: packs and crushes a small design through the library. What is not:
+// anything but the public headers.
 #include <iostream>
 
-#include "optimize/design.h"
-#include "optimize/evaluation.h"
+#include "optimize/evaluate/design.h"
+#include "optimize/evaluate/evaluation.h"
 
 int main() {
   perfora::optimize::DesignFile file;

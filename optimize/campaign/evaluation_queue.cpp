@@ -1,0 +1,160 @@
+// What is here: see evaluation_queue.h. What is not: the format of a journal line (io/journal.h).
+#include "optimize/campaign/evaluation_queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "io/journal.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+
+/// How often a stop is looked for while evaluations run.
+constexpr auto look_interval = std::chrono::milliseconds(200);
+constexpr double curve_step = 0.005;
+constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
+constexpr const char* evaluation_event = "evaluation";
+constexpr const char* runs_folder = "runs";
+
+std::string duration(double seconds) {
+  if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+}  // namespace
+
+int workers_for(int asked, int of_file, std::int64_t together) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : cores;
+  return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
+}
+
+solver::History coarse_curve(const solver::History& history) {
+  solver::History coarse;
+  double strain = 0.0, stress = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < history.rows(); ++k) {
+    strain += history.strain_yy[k];
+    stress += history.stress_yy[k];
+    ++count;
+    const bool last = k + 1 == history.rows();
+    const bool fine = history.strain_yy[k] < fine_until;
+    if (!last && !fine &&
+        std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
+      continue;
+    coarse.strain_yy.push_back(strain / count);
+    coarse.stress_yy.push_back(stress / count);
+    strain = stress = 0.0;
+    count = 0;
+  }
+  return coarse;
+}
+
+EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&)>& seen)
+    : options_(std::move(options)) {
+  journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
+  int version = 0;  // of the events that follow
+  for (const std::string& text : journal_->events()) {
+    const json record = json::parse(text);
+    if (record.value("event", "") == evaluation_event) {
+      take_evaluation(record, version == results_version);
+      continue;
+    }
+    version = record.value("results_version", version);
+    seen(record);
+  }
+}
+
+EvaluationQueue::~EvaluationQueue() = default;
+
+void EvaluationQueue::note(const json& event) {
+  journal_->append(event.dump());
+}
+
+void EvaluationQueue::take_evaluation(const json& record, bool of_this_version) {
+  // An older program with the same results may have known fewer keys: what was asked then has the key of today.
+  const std::string key = of_this_version && record.contains("request") ? request_from_json(record.at("request")).key()
+                                                                        : record.at("key").get<std::string>();
+  answers_.insert_or_assign(key, evaluation_from_json(record.at("evaluation")));
+  simulated_seconds_ += record.value("seconds", 0.0);
+  retries_ += record.value("attempts", 1) - 1;
+}
+
+void EvaluationQueue::record(const Asked& asked, Answer answer) {
+  answer.evaluation.curve = coarse_curve(answer.evaluation.curve);
+  const json event = {{"event", evaluation_event},
+                      {"key", answer.key},
+                      {"candidate", asked.label},
+                      {"request", to_json(asked.request)},
+                      {"evaluation", to_json(answer.evaluation, true)},
+                      {"attempts", answer.attempts},
+                      {"seconds", answer.seconds}};
+  const std::string text = event.dump();
+  journal_->append(text);
+  take_evaluation(json::parse(text), true);  // The same way as on resume, so that both see the same numbers.
+}
+
+std::string EvaluationQueue::time_left(std::int64_t remaining) const {
+  if (answers_.empty() || remaining <= 0) return {};
+  const double mean = simulated_seconds_ / static_cast<double>(answers_.size());
+  const double parallel = std::clamp(static_cast<double>(in_flight_.size()), 1.0, static_cast<double>(workers_));
+  return fmt::format("; at most {} left", duration(mean * static_cast<double>(remaining) / parallel));
+}
+
+std::filesystem::path EvaluationQueue::run_file(const std::string& key) {
+  return std::filesystem::path(runs_folder) / (key + ".h5");
+}
+
+void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
+  std::filesystem::create_directories(options_.folder / runs_folder);
+  Request request = asked.request;
+  request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.key));
+  request.frames = options_.keep_run_files;
+  executor.submit(asked.key, request);
+}
+
+void EvaluationQueue::drop_run_file(const std::string& key) const {
+  std::filesystem::path path = options_.folder / run_file(key);
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove_all(path.replace_extension(".part"), ignored);
+}
+
+bool EvaluationQueue::run(const Next& next, const Answered& answered) {
+  const auto asked_to_stop = [&] { return options_.stop_requested && options_.stop_requested(); };
+  std::unique_ptr<Executor> executor;
+  std::vector<Asked> wanted = next();
+  bool stopped = asked_to_stop();
+  while (!wanted.empty() && !stopped) {
+    if (!executor) executor = options_.make_executor();
+    workers_ = executor->workers();
+    for (const Asked& asked : wanted)
+      if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
+    std::optional<Answer> answer = executor->next(look_interval);
+    stopped = asked_to_stop();
+    if (!answer || answer->evaluation.status == solver::RunStatus::stopped) {
+      stopped = stopped || answer;
+      continue;
+    }
+    if (stopped && answer->evaluation.status == solver::RunStatus::failed)
+      continue;  // It may have died of the same signal.
+    const Asked asked = in_flight_.at(answer->key);
+    record(asked, std::move(*answer));
+    if (!options_.keep_run_files) drop_run_file(asked.key);
+    wanted = next();
+    answered(asked, answers_.at(asked.key));
+    in_flight_.erase(asked.key);
+  }
+  if (executor) executor->stop();
+  std::error_code ignored;
+  std::filesystem::remove(options_.folder / runs_folder, ignored);  // Where nothing is left in it.
+  return !stopped;
+}
+
+}  // namespace perfora::optimize

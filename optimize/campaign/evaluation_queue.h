@@ -1,0 +1,102 @@
+// What is here: evaluations of a folder: those its journal knows, and a loop that has the missing ones evaluated and
+// writes each down before anything else happens. What is not: which are wanted (driver.h, sweep_run.h), how they are
+// evaluated (executor.h).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "optimize/campaign/executor.h"
+
+namespace perfora::io {
+class Journal;
+}
+
+namespace perfora::optimize {
+
+/// Evaluations by request key.
+using Answers = std::map<std::string, Evaluation>;
+
+/// One question to an executor.
+struct Asked {
+  std::string key;
+  Request request;
+  std::string label;  ///< what the journal and people call it
+};
+
+/// How a folder's work is carried out.
+struct WorkOptions {
+  std::filesystem::path folder;  ///< made when missing; holds journal.jsonl
+  bool resume = false;           ///< go on with the journal there
+  bool force = false;            ///< remove an earlier one's files first
+  std::string command_line;
+  /// Makes the executor when something is to be evaluated; not called when the journal answers everything.
+  std::function<std::unique_ptr<Executor>()> make_executor;
+  /// Run files of finished simulations stay in DIR/runs, with a few frames; otherwise only those that were stopped or
+  /// killed, which are gone on with.
+  bool keep_run_files = false;
+  /// Asked often; true: end the workers, note the stop in the journal and return.
+  std::function<bool()> stop_requested;
+};
+
+/// The journal of a folder as answers, and the loop that adds to it.
+class EvaluationQueue {
+ public:
+  /// Opens (or begins) the journal of options.folder. Events that are no evaluations go to `seen` in their order, so
+  /// that what does not belong here can be refused before an evaluation is read. Throws io::InputError when the journal
+  /// is damaged or in use.
+  EvaluationQueue(WorkOptions options, const std::function<void(const nlohmann::json&)>& seen);
+  ~EvaluationQueue();
+
+  /// Appends an event that is no evaluation.
+  void note(const nlohmann::json& event);
+
+  const Answers& answers() const { return answers_; }
+  const WorkOptions& options() const { return options_; }
+
+  using Next = std::function<std::vector<Asked>()>;
+  using Answered = std::function<void(const Asked&, const Evaluation&)>;
+  /// Has everything evaluated that `next` (asked again after every answer) names, until it names nothing; questions
+  /// that are under way stay in its list until they are answered. `answered` is called after the answer is in the
+  /// journal. True: done; false: stopped, what is finished is kept.
+  bool run(const Next& next, const Answered& answered);
+
+  /// DIR/runs/KEY.h5, relative to the folder.
+  static std::filesystem::path run_file(const std::string& key);
+
+  int workers() const { return workers_; }  ///< of the last run(); 1 before
+  std::size_t in_flight() const { return in_flight_.size(); }
+  double simulated_seconds() const { return simulated_seconds_; }  ///< of all evaluations in the journal
+  int retries() const { return retries_; }                         ///< evaluations that were asked twice
+  /// "; at most 5 min left" for `remaining` evaluations like those so far; empty where nothing can be said.
+  std::string time_left(std::int64_t remaining) const;
+
+ private:
+  void take_evaluation(const nlohmann::json& record, bool of_this_version);
+  void record(const Asked& asked, Answer answer);
+  void submit(Executor& executor, const Asked& asked) const;
+  void drop_run_file(const std::string& key) const;
+
+  WorkOptions options_;
+  std::unique_ptr<io::Journal> journal_;
+  Answers answers_;
+  std::map<std::string, Asked> in_flight_;
+  double simulated_seconds_ = 0.0;
+  int retries_ = 0;
+  int workers_ = 1;
+};
+
+/// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
+/// be under way together.
+int workers_for(int asked, int of_file, std::int64_t together);
+
+/// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
+/// 3 %. What the journal keeps.
+solver::History coarse_curve(const solver::History& history);
+
+}  // namespace perfora::optimize

@@ -1,0 +1,114 @@
+// What is here: evaluations on threads of this process. What is not: protection from crashes (executor_children.cpp).
+#include <condition_variable>
+#include <deque>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "optimize/campaign/executor.h"
+
+namespace perfora::optimize {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Evaluation guarded(const Evaluate& evaluate, const Request& request) {
+  try {
+    return evaluate(request);
+  } catch (const std::exception& error) {
+    return failed_evaluation(request, error.what());
+  }
+}
+
+class InProcessExecutor final : public Executor {
+ public:
+  InProcessExecutor(Evaluate evaluate, int workers) : evaluate_(std::move(evaluate)) {
+    for (int k = 0; k < workers; ++k) threads_.emplace_back([this] { work(); });
+  }
+
+  ~InProcessExecutor() override { stop(); }
+
+  int workers() const override { return static_cast<int>(threads_.size()); }
+
+  void submit(const std::string& key, const Request& request) override {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back({key, request});
+    changed_.notify_all();
+  }
+
+  std::optional<Answer> next(std::chrono::milliseconds timeout) override {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, timeout, [this] { return !answers_.empty() || stopping_; });
+    if (answers_.empty() || stopping_) return std::nullopt;
+    Answer answer = std::move(answers_.front());
+    answers_.pop_front();
+    return answer;
+  }
+
+  void stop() override {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+      queue_.clear();
+      changed_.notify_all();
+    }
+    for (auto& thread : threads_)
+      if (thread.joinable()) thread.join();
+  }
+
+ private:
+  struct Job {
+    std::string key;
+    Request request;
+  };
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return !queue_.empty() || stopping_; });
+      if (stopping_) return;
+      Job job = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      const auto start = std::chrono::steady_clock::now();
+      Answer answer{job.key, guarded(evaluate_, job.request), 1, 0.0};
+      answer.seconds = seconds_since(start);
+      lock.lock();
+      answers_.push_back(std::move(answer));
+      changed_.notify_all();
+    }
+  }
+
+  Evaluate evaluate_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> queue_;
+  std::deque<Answer> answers_;
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers) {
+  return std::make_unique<InProcessExecutor>(std::move(evaluate), workers);
+}
+
+Evaluation failed_evaluation(const Request& request, const std::string& reason) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  Evaluation evaluation;
+  evaluation.status = solver::RunStatus::failed;
+  evaluation.reason = reason;
+  evaluation.replicate = request.replicate;
+  evaluation.summary.status = solver::RunStatus::failed;
+  evaluation.summary.reason = reason;
+  evaluation.summary.plateau_stress = unknown;
+  evaluation.summary.first_peak_stress = unknown;
+  evaluation.summary.first_peak_strain = unknown;
+  evaluation.summary.undulation = unknown;
+  return evaluation;
+}
+
+}  // namespace perfora::optimize

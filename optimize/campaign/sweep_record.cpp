@@ -1,0 +1,151 @@
+// What is here: see sweep_record.h. What is not: the statistics of a case (sweep_result.h).
+#include "optimize/campaign/sweep_record.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/error.h"
+#include "io/journal.h"
+#include "optimize/campaign/case_choice.h"
+#include "optimize/evaluate/evaluation.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+double number_or_nan(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : missing;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return missing;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+const SweepRecord::Case* case_called(const SweepRecord& record, const std::string& label) {
+  for (const SweepRecord::Case& one : record.cases)
+    if (one.label == label) return &one;
+  return nullptr;
+}
+
+CaseMean result_of(const SweepRecord::Case& one, const std::string& measure) {
+  const auto found = one.results.find(measure);
+  return found != one.results.end() ? found->second : CaseMean{missing, missing};
+}
+
+}  // namespace
+
+SweepRecord read_sweep_record(const fs::path& path) {
+  const fs::path file = fs::is_directory(path) ? path / "result.json" : path;
+  const char* remedy = "give the folder of a `perfora sweep`";
+  const auto refuse = [&](const std::string& problem) {
+    return io::InputError({file.string(), 0, ""}, problem, "", remedy);
+  };
+  if (!fs::exists(path)) throw refuse("there is no such file or folder");
+  if (!fs::exists(file))
+    throw refuse("this folder holds no result of a sweep (a sweep writes it when it ends or is stopped)");
+  const json object = json::parse(io::read_file(file), nullptr, false);
+  if (!object.is_object() || object.value("schema", "") != "perfora.sweep/1" || !object.contains("cases"))
+    throw refuse("this is not the result of a sweep");
+  SweepRecord record;
+  record.name = fs::absolute(file).parent_path().filename().string();
+  record.plateau_window = object.value("plateau_window", std::vector<double>());
+  for (const json& one : object["cases"]) {
+    if (one.value("completed", 0) < 1) continue;
+    SweepRecord::Case& added = record.cases.emplace_back();
+    added.label = one.value("label", "");
+    added.completed = one.value("completed", 0);
+    for (const auto& [name, statistic] : one["statistics"].items())
+      added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
+  }
+  if (record.cases.empty()) throw refuse("no case of this sweep has completed yet");
+  return record;
+}
+
+std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other) {
+  std::vector<std::string> found;
+  const auto window = [](const SweepRecord& record) {
+    return fmt::format("{:.4g} to {:.4g} %", 100.0 * record.plateau_window.front(),
+                       100.0 * record.plateau_window.back());
+  };
+  const bool known = reference.plateau_window.size() == 2 && other.plateau_window.size() == 2;
+  if (known && reference.plateau_window != other.plateau_window)
+    found.push_back(fmt::format("the plateau is taken from {} strain in {}, from {} in {}", window(reference),
+                                reference.name, window(other), other.name));
+  const auto reached = [](const SweepRecord& record) {
+    std::vector<double> strains;
+    for (const SweepRecord::Case& one : record.cases) strains.push_back(result_of(one, "final_strain").mean);
+    return median(std::move(strains));
+  };
+  constexpr double a_step = 1e-3;
+  if (std::fabs(reached(reference) - reached(other)) > a_step)
+    found.push_back(
+        fmt::format("{} was compressed to {:.4g} %, {} to {:.4g} %: results that look at the whole curve are "
+                    "not the same",
+                    reference.name, 100.0 * reached(reference), other.name, 100.0 * reached(other)));
+  return found;
+}
+
+std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const SweepRecord& other,
+                                            const std::vector<std::string>& measures,
+                                            const std::vector<std::string>& only) {
+  std::vector<std::string> labels;
+  for (const SweepRecord::Case& one : reference.cases)
+    if (is_chosen(one.label, only) && case_called(other, one.label)) labels.push_back(one.label);
+  if (labels.size() < 3)
+    throw io::InputError(
+        {other.name, 0, ""},
+        fmt::format("only {} of its completed cases {} called like one of {}{}; a rank correlation needs three",
+                    labels.size(), labels.size() == 1 ? "is" : "are", reference.name,
+                    only.empty() ? "" : fmt::format(" with \"{}\" in the name", fmt::join(only, "\" or \""))),
+        "",
+        fmt::format("{} has {} cases, the first is \"{}\"; {} begins with \"{}\"", reference.name,
+                    reference.cases.size(), reference.cases.front().label, other.name, other.cases.front().label));
+  std::vector<ComparedMeasure> compared;
+  for (const std::string& name : measures) {
+    ComparedMeasure one{name, labels, {}, {}, {}, missing};
+    std::vector<double> a, b, ratios;
+    for (const std::string& label : labels) {
+      one.reference.push_back(result_of(*case_called(reference, label), name));
+      one.other.push_back(result_of(*case_called(other, label), name));
+      a.push_back(one.reference.back().mean);
+      b.push_back(one.other.back().mean);
+      if (const double ratio = b.back() / a.back(); std::isfinite(ratio)) ratios.push_back(ratio);
+    }
+    one.correlation = rank_correlation(a, b);
+    one.median_ratio = median(ratios);
+    compared.push_back(std::move(one));
+  }
+  return compared;
+}
+
+json to_json(const SweepRecord& other, const std::vector<ComparedMeasure>& compared) {
+  json measures = json::object();
+  for (const ComparedMeasure& one : compared) {
+    json cases = json::array();
+    for (std::size_t k = 0; k < one.labels.size(); ++k)
+      cases.push_back({{"label", one.labels[k]},
+                       {"reference", number(one.reference[k].mean)},
+                       {"sweep", number(one.other[k].mean)}});
+    measures[one.measure] = {{"rank_correlation", number(one.correlation.coefficient)},
+                             {"low_95", number(one.correlation.low)},
+                             {"high_95", number(one.correlation.high)},
+                             {"pairs", one.correlation.count},
+                             {"median_ratio", number(one.median_ratio)},
+                             {"cases", cases}};
+  }
+  return {{"sweep", other.name}, {"measures", measures}};
+}
+
+}  // namespace perfora::optimize

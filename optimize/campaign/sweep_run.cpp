@@ -1,0 +1,99 @@
+// What is here: the loop of a sweep around its journal. What is not: its tables and pictures.
+#include "optimize/campaign/sweep_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "io/progress.h"
+#include "io/text.h"
+#include "optimize/campaign/work_folder.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+
+/// Everything a sweep writes into its folder; --force removes these and nothing else.
+constexpr const char* own_files[] = {"journal.jsonl", "result.json", "cases.csv",    "runs.csv",
+                                     "curves.csv",    "sweep.png",   "collapse.png", "runs"};
+
+}  // namespace
+
+SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) {
+  prepare_work_folder(options.folder, own_files, "sweep", options.force, options.resume);
+  bool known = false;
+  queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json&) { known = true; });
+  if (!known || queue_->options().resume)
+    queue_->note({{"event", "sweep"},
+                  {"schema", "perfora.sweep/1"},
+                  {"results_version", results_version},
+                  {"command_line", queue_->options().command_line},
+                  {"file", sweep_.file.filename().string()}});
+  for (const SweepCase& one : sweep_.cases) {
+    std::vector<std::string> keys;
+    for (int replicate = 0; one.problem.empty() && replicate < sweep_.keys.replicates; ++replicate)
+      keys.push_back(one.request(replicate).key());
+    keys_.push_back(std::move(keys));
+  }
+}
+
+SweepRun::~SweepRun() = default;
+
+const std::string& SweepRun::key_of(const SweepCase& one, int replicate) const {
+  return keys_[static_cast<std::size_t>(&one - sweep_.cases.data())][static_cast<std::size_t>(replicate)];
+}
+
+const Evaluation* SweepRun::known(const SweepCase& one, int replicate) const {
+  if (!one.problem.empty()) return nullptr;
+  const auto found = queue_->answers().find(key_of(one, replicate));
+  return found == queue_->answers().end() ? nullptr : &found->second;
+}
+
+const Evaluation* SweepRun::completed(const SweepCase& one, int replicate) const {
+  const Evaluation* evaluation = known(one, replicate);
+  return evaluation && evaluation->status == solver::RunStatus::completed ? evaluation : nullptr;
+}
+
+std::vector<Asked> SweepRun::wanted() const {
+  std::vector<Asked> asked;
+  std::set<std::string> seen;  // Cases that come to the same design are one run.
+  for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
+    for (const SweepCase& one : sweep_.cases)
+      if (one.problem.empty() && !known(one, replicate) && seen.insert(key_of(one, replicate)).second)
+        asked.push_back({key_of(one, replicate), one.request(replicate), one.label});
+  return asked;
+}
+
+void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
+  const auto& summary = evaluation.summary;
+  const std::string what =
+      evaluation.status == solver::RunStatus::completed
+          ? fmt::format("first peak {}, plateau {}", io::readable_stress(summary.first_peak_stress),
+                        io::readable_stress(summary.plateau_stress))
+          : "failed: " + evaluation.reason;
+  const auto left = static_cast<std::int64_t>(wanted().size());
+  io::log_info(fmt::format("run {} of {}: {}, replicate {}: {}{}", sweep_.runs() - left, sweep_.runs(), asked.label,
+                           asked.request.replicate, what, queue_->time_left(left)));
+}
+
+void SweepRun::run() {
+  const auto begin = std::chrono::steady_clock::now();
+  const bool done = queue_->run([this] { return wanted(); },
+                                [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
+  std::set<std::string> reached;  // by key: cases that come to the same design are one run
+  for (const SweepCase& one : sweep_.cases)
+    for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
+      if (completed(one, replicate)) reached.insert(key_of(one, replicate));
+  status_ = !done              ? solver::RunStatus::stopped
+            : !reached.empty() ? solver::RunStatus::completed
+                               : solver::RunStatus::failed;
+  reason_ = done ? fmt::format("{} of {} runs completed", reached.size(), sweep_.runs())
+                 : "stopped by a signal; go on with --resume";
+  queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});
+  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace perfora::optimize

@@ -1,0 +1,236 @@
+// What is here: what can be said of a design without placing discs: rules across keys of several rooms.
+// What is not: ranges of single keys (the table of keys), rules within a room (make_layout, solver::validate).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "optimize/evaluate/design.h"
+
+namespace perfora::optimize {
+
+namespace {
+
+/// Bonds are numbered by 32-bit integers; a disc has at most about 40 of them at the largest sensible horizon.
+constexpr double most_discs = 5.0e7;
+/// Below this many discs across the cell there is no material to speak of.
+constexpr double fewest_discs_across = 10.0;
+/// Up to this ratio of <d> to the reference the thresholds are taken as stated for this packing: rounding in a design
+/// file.
+constexpr double coarse_tolerance = 1.01;
+
+double millimetres(double metres) {
+  return 1.0e3 * metres;
+}
+
+/// Refuses a hopeless number of holes before any is placed: n points in a periodic cell of area A have two nearer than
+/// sqrt(2 A/(sqrt(3) n)) (densest lattice packing in the plane: Thue), so the thinnest wall is below that minus the
+/// diameter. Of unequal holes the two nearest may be small ones: those are left to make_layout.
+void check_hole_count(const Design& design, const io::Schema& schema, double horizon_radius) {
+  const geometry::LayoutOptions& layout = design.layout;
+  const std::int64_t holes = geometry::hole_count(layout);
+  if (holes <= 0 || !geometry::equal_holes(layout.family)) return;
+  const double area = layout.width * layout.height;
+  const double closest = std::sqrt(2.0 * area / (std::numbers::sqrt3 * static_cast<double>(holes)));
+  if (closest - layout.diameter >= horizon_radius) return;
+  const double most = 2.0 * area / (std::numbers::sqrt3 * std::pow(layout.diameter + horizon_radius, 2));
+  if (most < 1.0) return;  // not the number is wrong: make_layout and check_walls say what
+  throw io::InputError(
+      schema.origin(geometry::count_key(layout)),
+      fmt::format(
+          "{} holes of {:.4g} mm leave no wall of at least the horizon of {:.4g} mm in a cell of {:.4g} x {:.4g} mm",
+          holes, millimetres(layout.diameter), millimetres(horizon_radius), millimetres(layout.width),
+          millimetres(layout.height)),
+      fmt::format("at most {:.0f} such holes can fit", std::floor(most)),
+      "take fewer or smaller holes, or a larger cell");
+}
+
+/// <d> that the horizon is stated in: of the size law, or of the imported discs.
+double horizon_diameter(const Design& design) {
+  if (design.packing.file.empty()) return design.packing.mean_diameter;
+  return geometry::import_packing(design.packing.file, design.layout.width, design.layout.height).mean_diameter();
+}
+
+void check_size_law(const Design& design, const io::Schema& schema) {
+  if (!design.packing.file.empty()) return;
+  const geometry::PackingOptions& packing = design.packing;
+  const double smallest = packing.maximum_diameter / packing.size_ratio;
+  if (packing.mean_diameter <= smallest || packing.mean_diameter >= packing.maximum_diameter)
+    throw io::InputError(
+        schema.origin("packing.mean_diameter"),
+        fmt::format("the mean diameter {:.6g} mm is outside the diameters of the size law, {:.6g} to {:.6g} mm",
+                    millimetres(packing.mean_diameter), millimetres(smallest), millimetres(packing.maximum_diameter)),
+        "between maximum_diameter/size_ratio and maximum_diameter",
+        "change packing.mean_diameter and packing.maximum_diameter together");
+  static_cast<void>(geometry::size_law_exponent(packing.mean_diameter, packing.maximum_diameter, packing.size_ratio));
+}
+
+void check_disc_count(const Design& design, const io::Schema& schema) {
+  if (!design.packing.file.empty()) return;
+  // Estimated by area first: expected_discs may be slow for absurd numbers.
+  const double area = design.layout.width * design.layout.height;
+  const double by_area = area / (design.packing.mean_diameter * design.packing.mean_diameter);
+  if (by_area > most_discs)
+    throw io::InputError(schema.origin("packing.mean_diameter"),
+                         fmt::format("about {:.3g} discs of {:.4g} mm would be needed for a cell of {:.4g} x {:.4g} mm",
+                                     by_area, millimetres(design.packing.mean_diameter),
+                                     millimetres(design.layout.width), millimetres(design.layout.height)),
+                         fmt::format("at most {:.3g} discs", most_discs), "take larger discs or a smaller cell");
+}
+
+void check_cell_against_discs(const Design& design, const io::Schema& schema, double mean_diameter,
+                              double horizon_radius) {
+  const bool narrow = design.layout.width < design.layout.height;
+  const double smallest_side = narrow ? design.layout.width : design.layout.height;
+  const io::Origin origin = schema.origin(narrow ? "cell.width" : "cell.height");
+  if (smallest_side < fewest_discs_across * mean_diameter)
+    throw io::InputError(
+        origin,
+        fmt::format("a cell of {:.4g} mm is only {:.2g} mean disc diameters of {:.4g} mm across",
+                    millimetres(smallest_side), smallest_side / mean_diameter, millimetres(mean_diameter)),
+        fmt::format("at least {:.0f} diameters", fewest_discs_across), "take smaller discs or a larger cell");
+  if (smallest_side <= 2.0 * horizon_radius)
+    throw io::InputError(
+        origin,
+        fmt::format("a cell of {:.4g} mm is not wider than twice the horizon of {:.4g} mm, so a disc would "
+                    "be bonded to two images of the same neighbour",
+                    millimetres(smallest_side), millimetres(horizon_radius)),
+        "more than 2 x material.horizon x packing.mean_diameter", "take smaller discs or a larger cell");
+  const double final_height = design.layout.height * (1.0 - design.solver.loading.until);
+  const double largest_diameter = design.packing.file.empty() ? design.packing.maximum_diameter : mean_diameter;
+  const double reach = std::max(largest_diameter, horizon_radius);  // fragments keep their bonds while the cell shrinks
+  if (final_height <= 2.0 * reach)
+    throw io::InputError(
+        schema.origin("loading.until"),
+        fmt::format("compressing to strain {:.4g} leaves a cell {:.4g} mm high, not more than twice the "
+                    "horizon or the largest disc",
+                    design.solver.loading.until, millimetres(final_height)),
+        fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.height), "stop earlier or take a higher cell");
+}
+
+std::string pair_text(const geometry::ThinnestWall& wall) {
+  if (wall.first == wall.second) return fmt::format("hole {} and its periodic image", wall.first + 1);
+  return fmt::format("holes {} and {}", wall.first + 1, wall.second + 1);
+}
+
+void check_walls(const geometry::PerforationLayout& layout, const io::Schema& schema, double horizon_radius,
+                 std::vector<std::string>& warnings) {
+  if (layout.perforations.empty()) return;
+  const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
+  constexpr double rounding = 1e-9;
+  if (wall.thickness < (1.0 - rounding) * horizon_radius)
+    throw io::InputError(
+        schema.origin("layout.diameter"),
+        fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than the horizon of {:.4g} mm, so "
+                    "bonds would span it",
+                    millimetres(wall.thickness), pair_text(wall), millimetres(horizon_radius)),
+        fmt::format("at least {:.4g} mm", millimetres(horizon_radius)),
+        "take smaller or fewer holes, smaller discs (packing.mean_diameter) or a smaller material.horizon; a random "
+        "layout keeps walls of layout.minimum_wall");
+  if (wall.thickness < 2.0 * horizon_radius)
+    warnings.push_back(
+        fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than two horizons ({:.4g} mm): every disc in "
+                    "it feels an edge, so "
+                    "it is softer and weaker than the material; smaller discs or thicker walls give truer results",
+                    millimetres(wall.thickness), pair_text(wall), millimetres(2.0 * horizon_radius)));
+}
+
+void warn_about_holes(const geometry::PerforationLayout& layout, const Design& design,
+                      std::vector<std::string>& warnings) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const geometry::Perforation& hole : layout.perforations) smallest = std::min(smallest, hole.diameter);
+  if (smallest < design.packing.maximum_diameter && design.packing.file.empty())
+    warnings.push_back(
+        fmt::format("the smallest hole, {:.4g} mm, is smaller than the largest disc, {:.4g} mm: it may take "
+                    "no disc away",
+                    millimetres(smallest), millimetres(design.packing.maximum_diameter)));
+}
+
+void warn_about_resolution(const Design& design, double mean_diameter, std::vector<std::string>& warnings) {
+  const solver::MaterialOptions& material = design.solver.material;
+  const double ratio = mean_diameter / material.reference_mean_diameter;
+  if (ratio <= coarse_tolerance) return;
+  const char* consequence =
+      "; the first peak comes out biased, not only noisy, and a wall holds fewer discs: use it to try things out, and "
+      "fewer "
+      "holes in a smaller cell at the reference diameter for cheap numbers that hold";
+  switch (material.threshold_scaling) {
+    case solver::ThresholdScaling::none:
+      warnings.push_back(fmt::format(
+          "the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm that the critical stretches are "
+          "stated for, "
+          "and material.threshold_scaling = \"none\" leaves them as they are: strength falls by that factor{}",
+          millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter), consequence));
+      break;
+    case solver::ThresholdScaling::strength:
+      warnings.push_back(fmt::format(
+          "the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm: strength is kept by scaling the "
+          "critical "
+          "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (5 to 6 mm for Table "
+          "1 at the "
+          "reference) grow {:.2f} times as well{}",
+          millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter), ratio, consequence));
+      break;
+    case solver::ThresholdScaling::toughness:
+      warnings.push_back(
+          fmt::format("the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm: fracture energy is "
+                      "kept by scaling the "
+                      "critical stretches with its square root, so the strength falls to {:.2f} of its value{}",
+                      millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter),
+                      1.0 / std::sqrt(ratio), consequence));
+      break;
+  }
+}
+
+void warn_about_window(const Design& design, std::vector<std::string>& warnings) {
+  const double until = design.solver.loading.until;
+  if (until >= design.solver.measures.plateau_end) return;
+  warnings.push_back(
+      fmt::format("the run ends at strain {:.4g}, before the end of the plateau window at {:.4g}: plateau_stress "
+                  "and what follows from it will be null",
+                  until, design.solver.measures.plateau_end));
+}
+
+std::vector<std::string> checked(const Design& design, const io::Schema& schema) {
+  std::vector<std::string> warnings;
+  check_size_law(design, schema);
+  check_disc_count(design, schema);
+  const double mean_diameter = horizon_diameter(design);
+  const double horizon_radius = design.solver.material.horizon * mean_diameter;
+  check_cell_against_discs(design, schema, mean_diameter, horizon_radius);
+  check_hole_count(design, schema, horizon_radius);
+  const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &schema);
+  check_walls(layout, schema, horizon_radius, warnings);
+  solver::validate(design.solver, schema);
+  warn_about_holes(layout, design, warnings);
+  warn_about_resolution(design, mean_diameter, warnings);
+  warn_about_window(design, warnings);
+  return warnings;
+}
+
+/// A complaint about a key that the file leaves at its default names the file all the same: that is where the remedy
+/// goes. Holes that came from a CSV file are that file's.
+io::InputError at_home(const io::InputError& error, const Design& design, const std::filesystem::path& path) {
+  if (error.origin().file != "default" || path.empty()) return error;
+  const std::string prefix = "default: " + error.origin().key + ": ";
+  std::string text = error.what();
+  if (!text.starts_with(prefix)) return error;
+  text.erase(0, prefix.size());
+  if (error.origin().key == "layout.holes" && !design.layout.file.empty())
+    return {{design.layout.file.string(), 0, ""}, text};
+  return {{path.string(), 0, error.origin().key}, text};
+}
+
+}  // namespace
+
+std::vector<std::string> DesignFile::validate() const {
+  try {
+    return checked(*design_, *schema_);
+  } catch (const io::InputError& error) {
+    throw at_home(error, *design_, path_);
+  }
+}
+
+}  // namespace perfora::optimize

@@ -1,0 +1,201 @@
+// What is here: see elastic_answer.h.
+#include "optimize/evaluate/elastic_answer.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "geometry/packing_file.h"
+#include "io/error.h"
+#include "solver/simulation.h"
+
+namespace perfora::optimize {
+
+using nlohmann::json;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void solve(const DesignFile& file, ElasticAnswer& answer) {
+  const solver::SolverOptions& options = file.design().solver;
+  const geometry::Packing& clipped = answer.packed.clipped;
+  const double mean_diameter = mean_diameter_of(file, answer.packed.periodic);
+  answer.network = solver::make_bond_network(clipped, answer.packed.layout, options.material, options.noise,
+                                             answer.seeds.noise, mean_diameter);
+  if (answer.network.size() == 0)
+    throw io::InputError({"", 0, "material.horizon"}, "no two discs are near enough to be bonded", "",
+                         "raise the horizon or the solid fraction");
+  answer.response = solver::elastic_response(answer.network, static_cast<std::int32_t>(clipped.size()), clipped.width,
+                                             clipped.height, options.material);
+  if (answer.response.status != solver::ElasticStatus::converged) {
+    answer.status = solver::RunStatus::failed;
+    answer.reason = "the equilibrium was not reached";
+    return;
+  }
+  // A block in pieces, or one that is held by single bonds, moves without any force: what is left is rounding.
+  constexpr double nothing = 1e-6;
+  const auto& stiffness = answer.response.stiffness;
+  const auto& affine = answer.response.affine_stiffness;
+  if (stiffness[0][0] < nothing * affine[0][0] && stiffness[1][1] < nothing * affine[1][1]) {
+    answer.status = solver::RunStatus::failed;
+    answer.reason = "the bonds do not connect the block: raise material.horizon or packing.solid_fraction";
+    return;
+  }
+  answer.first_yield =
+      solver::first_yield(answer.network, answer.response, solver::make_bond_law(options.material, mean_diameter));
+  answer.reason = "elastic answer found";
+}
+
+json rows(const solver::PlaneStiffness& stiffness, bool reached) {
+  json result = json::array();
+  for (const auto& row : stiffness) {
+    json values = json::array();
+    for (const double value : row) values.push_back(reached ? json(value) : json(nullptr));
+    result.push_back(values);
+  }
+  return result;
+}
+
+struct Named {
+  const char* name;
+  double value;
+};
+
+std::vector<Named> numbers_of(const ElasticAnswer& answer) {
+  const solver::PlaneModuli& m = answer.response.moduli;
+  const solver::FirstYield& y = answer.first_yield;
+  return {{"young_x", m.young_x},
+          {"young_y", m.young_y},
+          {"poisson_xy", m.poisson_xy},
+          {"poisson_yx", m.poisson_yx},
+          {"shear_modulus", m.shear_modulus},
+          {"oedometric_modulus", answer.response.stiffness[1][1]},
+          {"anisotropy", m.anisotropy},
+          {"isotropic_young", m.isotropic_young},
+          {"isotropic_poisson", m.isotropic_poisson},
+          {"plane_strain_young", m.plane_strain_young},
+          {"plane_strain_poisson", m.plane_strain_poisson},
+          {"affine_share", answer.response.stiffness[1][1] / answer.response.affine_stiffness[1][1]},
+          {"first_yield_strain", y.strain},
+          {"first_yield_stress", y.stress},
+          {"first_yield_lateral_stress", y.lateral_stress}};
+}
+
+/// Middle of a bond in the undeformed cell, m.
+std::pair<double, double> place_of(const ElasticAnswer& answer, std::int32_t bond) {
+  const auto id = static_cast<std::size_t>(bond);
+  const geometry::Packing& clipped = answer.packed.clipped;
+  const auto i = static_cast<std::size_t>(answer.network.i[id]);
+  const double half = 0.5 * answer.network.rest_length[id];
+  const auto wrapped = [](double x, double period) { return x - period * std::floor(x / period); };
+  return {wrapped(clipped.x[i] + half * answer.network.direction_x[id], clipped.width),
+          wrapped(clipped.y[i] + half * answer.network.direction_y[id], clipped.height)};
+}
+
+const char* mode_name(solver::BreakMode mode) {
+  return mode == solver::BreakMode::tension ? "tension" : "shear";
+}
+
+void write_first_yield(io::Hdf5Writer& file, const ElasticAnswer& answer) {
+  const solver::FirstYield& first = answer.first_yield;
+  file.dataset("/first_yield/disc_strain", first.disc_strain, 0, "1");
+  std::vector<double> x, y, strain;
+  std::vector<std::int32_t> pairs;
+  std::vector<std::uint8_t> mode;
+  for (const solver::YieldingBond& bond : first.first_bonds) {
+    const auto [px, py] = place_of(answer, bond.bond);
+    x.push_back(px);
+    y.push_back(py);
+    strain.push_back(bond.strain);
+    pairs.push_back(answer.network.i[static_cast<std::size_t>(bond.bond)]);
+    pairs.push_back(answer.network.j[static_cast<std::size_t>(bond.bond)]);
+    mode.push_back(static_cast<std::uint8_t>(bond.mode));
+  }
+  file.dataset("/first_yield/bonds/x", x, 0, "m");
+  file.dataset("/first_yield/bonds/y", y, 0, "m");
+  file.dataset("/first_yield/bonds/strain", strain, 0, "1");
+  file.dataset("/first_yield/bonds/pairs", pairs, 2);
+  file.dataset("/first_yield/bonds/mode", mode);
+}
+
+void write_stiffness(io::Hdf5Writer& file, const std::string& name, const solver::PlaneStiffness& stiffness) {
+  std::vector<double> flat;
+  for (const auto& row : stiffness) flat.insert(flat.end(), row.begin(), row.end());
+  file.dataset(name, flat, 3, "Pa");
+}
+
+}  // namespace
+
+ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+  const auto start = Clock::now();
+  ElasticAnswer answer;
+  answer.replicate = replicate;
+  answer.seeds = design.design().seeds.effective(replicate);
+  answer.packed = pack_design(design, options, replicate);
+  answer.packing_seconds = seconds_since(start);
+  const geometry::PackingQuality& quality = answer.packed.periodic.quality;
+  if (!quality.reached || answer.packed.clipped.size() == 0) {
+    answer.status = solver::RunStatus::failed;
+    answer.reason =
+        quality.reached ? "no disc is left between the perforations" : "packing not reached: " + quality.reason;
+  } else {
+    const auto packed = Clock::now();
+    solve(design, answer);
+    answer.solution_seconds = seconds_since(packed);
+  }
+  answer.performance.seconds = seconds_since(start);
+  answer.performance.threads = options.threads;
+  return answer;
+}
+
+json to_json(const ElasticAnswer& answer) {
+  const bool reached = answer.status == solver::RunStatus::completed;
+  json record = {{"schema", "perfora.elastic/1"},
+                 {"status", solver::status_name(answer.status)},
+                 {"reason", answer.reason},
+                 {"seeds", to_json(answer.seeds)},
+                 {"results_version", results_version},
+                 {"replicate", answer.replicate},
+                 {"bonds", answer.response.bonds},
+                 {"stiffness", rows(answer.response.stiffness, reached)},
+                 {"affine_stiffness", rows(answer.response.affine_stiffness, reached)},
+                 {"first_yield_bonds", static_cast<std::int64_t>(answer.first_yield.first_bonds.size())},
+                 {"first_yield_place", nullptr},
+                 {"first_yield_mode", nullptr},
+                 {"iterations", answer.response.iterations},
+                 {"residual", number(answer.response.residual)}};
+  record.update(to_json(answer.packed.summary));
+  for (const Named& entry : numbers_of(answer)) record[entry.name] = reached ? number(entry.value) : json(nullptr);
+  if (!answer.first_yield.first_bonds.empty()) {
+    const solver::YieldingBond& first = answer.first_yield.first_bonds.front();
+    const auto [x, y] = place_of(answer, first.bond);
+    record["first_yield_place"] = {x, y};
+    record["first_yield_mode"] = mode_name(first.mode);
+  }
+  record["performance"] = to_json(answer.performance);
+  record["performance"]["packing_seconds"] = answer.packing_seconds;
+  record["performance"]["solution_seconds"] = answer.solution_seconds;
+  return record;
+}
+
+void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticAnswer& answer,
+                        const json& summary, const std::string& command_line) {
+  io::Hdf5Writer file(path);
+  write_record(file, "perfora.elastic/1", design, summary, command_line);
+  geometry::write_layout(file, "/layout", answer.packed.layout);
+  geometry::write_packing(file, "/clipped", answer.packed.clipped);
+  write_stiffness(file, "/stiffness", answer.response.stiffness);
+  write_stiffness(file, "/affine_stiffness", answer.response.affine_stiffness);
+  constexpr std::array names = {"/displacement/xx", "/displacement/yy", "/displacement/xy"};
+  for (std::size_t e = 0; e < names.size(); ++e)
+    file.dataset(names[e], answer.response.displacement[e], 3, "m, m, rad per unit strain");
+  write_first_yield(file, answer);
+  file.commit();
+}
+
+}  // namespace perfora::optimize

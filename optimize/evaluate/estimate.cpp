@@ -1,0 +1,161 @@
+// What is here: see estimate.h. What is not: measured numbers of a run (solver::estimate_run counts bonds of a real
+// packing).
+#include "optimize/evaluate/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/size_law.h"
+#include "optimize/evaluate/estimate_stepping.h"
+#include "solver/run_setup.h"
+
+#include "solver/mass.h"
+#include "solver/noise.h"
+
+namespace perfora::optimize {
+
+namespace {
+
+/// Around a disc of a dense packing so many discs are missing within a few diameters: its own place, less the crowding
+/// of its neighbours.
+constexpr double missing_discs = 0.6;
+
+/// Area shared by two discs of diameter d whose centres are h apart.
+double lens_area(double diameter, double h) {
+  const double radius = 0.5 * diameter;
+  if (h >= diameter) return 0.0;
+  return 2.0 * radius * radius * std::acos(h / diameter) - 0.5 * h * std::sqrt(diameter * diameter - h * h);
+}
+
+/// Integral of the shared area of all holes over displacements up to `radius`: 2 pi int h lens(h) dh (Simpson's rule).
+double shared_hole_area(const geometry::PerforationLayout& layout, double radius) {
+  constexpr int intervals = 64;  // the integrand is smooth up to h = d: error far below a per mille
+  const double step = radius / intervals;
+  double total = 0.0;
+  for (int k = 0; k <= intervals; ++k) {
+    const double h = k * step;
+    double area = 0.0;
+    for (const geometry::Perforation& hole : layout.perforations) area += lens_area(hole.diameter, h);
+    const double weight = k == 0 || k == intervals ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
+    total += weight * 2.0 * std::numbers::pi * h * area;
+  }
+  return total * step / 3.0;
+}
+
+/// The periodic packing in numbers.
+struct Discs {
+  std::int64_t count = 0;
+  double mean_diameter = 0.0;
+  std::vector<double> diameters;  ///< a sample
+};
+
+Discs periodic_discs(const Design& design) {
+  const double width = design.layout.width, height = design.layout.height;
+  const geometry::PackingOptions& options = design.packing;
+  if (!options.file.empty()) {
+    const geometry::Packing packing = geometry::import_packing(options.file, width, height);
+    Discs discs{packing.size(), packing.mean_diameter(), {}};
+    for (const double radius : packing.radius) discs.diameters.push_back(2.0 * radius);
+    return discs;
+  }
+  Discs discs{geometry::expected_discs(options, width, height), options.mean_diameter, {}};
+  const geometry::SizeLaw law{
+      geometry::size_law_exponent(options.mean_diameter, options.maximum_diameter, options.size_ratio),
+      options.size_ratio};
+  constexpr int sizes = 500;
+  for (int k = 0; k < sizes; ++k) discs.diameters.push_back(options.maximum_diameter * law.quantile((k + 0.5) / sizes));
+  return discs;
+}
+
+/// Steps in whole rows, as the solver makes them.
+void estimate_steps(const Design& design, const geometry::PerforationLayout& layout, const Discs& discs,
+                    DesignEstimate& estimate) {
+  const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
+  const SteppingEstimate stepping = estimate_stepping(
+      design.solver, layout, {density, discs.mean_diameter, estimate.bonds_per_disc, discs.diameters});
+  const double interval = design.solver.output.history_interval;
+  const solver::LoadingPlan plan = solver::plan_loading(stepping.loading, design.solver.loading,
+                                                        solver::loaded_block(layout), interval, stepping.time_step);
+  estimate.time_step = plan.time_step;
+  constexpr double rounding = 1e-9;
+  const double until = std::ceil(design.solver.loading.until / interval - rounding) * interval;
+  estimate.steps = solver::expected_steps(plan, stepping.loading, until,
+                                          stepping.loading.bulk_density / design.solver.material.density);
+  estimate.rate = until / (static_cast<double>(estimate.steps) * estimate.time_step);
+}
+
+double frame_count(const solver::SolverOptions& options) {
+  const double until = options.loading.until;
+  if (!options.output.frame_strains.empty()) return static_cast<double>(options.output.frame_strains.size());
+  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until / 0.1;
+  if (options.output.frames == solver::FrameChoice::all) return 2.0 + until / 0.01;
+  return 0.0;
+}
+
+/// Bytes and seconds from rough figures a bond, a disc, a row, a frame.
+void estimate_resources(const Design& design, int threads, DesignEstimate& estimate) {
+  constexpr double program_bytes = 3.0e7, bytes_per_bond = 220.0, bytes_per_disc = 1200.0;
+  constexpr double nanoseconds_per_bond_step = 4.5;  // AVX-512, one thread; per bond of the intact block
+  constexpr double file_bytes_per_bond = 30.0, file_bytes_per_disc = 200.0, file_bytes_per_row = 150.0;
+  constexpr double frame_bytes_per_bond = 6.0, frame_bytes_per_disc = 30.0;
+  const double discs = static_cast<double>(estimate.discs), bonds = static_cast<double>(estimate.bonds);
+  const double rows = design.solver.loading.until / design.solver.output.history_interval;
+  estimate.memory_bytes = program_bytes + bytes_per_bond * bonds + bytes_per_disc * discs;
+  estimate.seconds = 1e-9 * nanoseconds_per_bond_step * static_cast<double>(estimate.steps) * bonds / threads;
+  estimate.disk_bytes = file_bytes_per_bond * bonds + file_bytes_per_disc * discs + file_bytes_per_row * rows +
+                        frame_count(design.solver) * (frame_bytes_per_bond * bonds + frame_bytes_per_disc * discs);
+}
+
+}  // namespace
+
+double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double density, double radius) {
+  const double solid = layout.solid_area_fraction();
+  const double cell = layout.width * layout.height;
+  if (solid <= 0.0) return 0.0;
+  const double circle = std::numbers::pi * radius * radius;
+  // Shared area of the solid and the solid moved by h: cell - 2 holes + holes shared with the moved holes.
+  const double pairs = circle * cell * (2.0 * solid - 1.0) + shared_hole_area(layout, radius);
+  const double share = pairs / (circle * cell * solid);  // of a full circle that lies in the solid, seen from a disc
+  return std::max(0.0, (density * circle - missing_discs) * share);
+}
+
+double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,
+                          double density, double radius) {
+  // Chord of a hole in the edge, of the image of the hole that is nearest to it.
+  const auto chord = [](double place, double period, double diameter) {
+    const double off = std::remainder(place, period);
+    return std::sqrt(std::max(0.0, diameter * diameter - 4.0 * off * off));
+  };
+  double level = boundary.top_bottom == solver::TopBottom::periodic ? 0.0 : layout.width;
+  double upright = boundary.sides == solver::Sides::periodic ? 0.0 : layout.height;
+  for (const geometry::Perforation& hole : layout.perforations) {
+    if (level > 0.0) level -= chord(hole.y, layout.height, hole.diameter);
+    if (upright > 0.0) upright -= chord(hole.x, layout.width, hole.diameter);
+  }
+  return 2.0 / 3.0 * density * density * radius * radius * radius * (std::max(0.0, level) + std::max(0.0, upright));
+}
+
+DesignEstimate estimate_design(const DesignFile& file, int threads) {
+  const Design& design = file.design();
+  DesignEstimate estimate;
+  const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &file.schema());
+  const Discs discs = periodic_discs(design);
+  const double cell = layout.width * layout.height;
+  const double solid = layout.solid_area_fraction();
+  estimate.perforations = static_cast<std::int64_t>(layout.perforations.size());
+  estimate.thinnest_wall = geometry::thinnest_wall(layout);
+  estimate.porosity = 1.0 - solid;
+  estimate.horizon_radius = design.solver.material.horizon * discs.mean_diameter;
+  estimate.discs = std::llround(static_cast<double>(discs.count) * solid);
+  const double density = static_cast<double>(discs.count) / cell;
+  const double cut = bonds_cut_by_edges(layout, design.solver.boundary, density, estimate.horizon_radius);
+  estimate.bonds_per_disc = std::max(0.0, expected_bonds_per_disc(layout, density, estimate.horizon_radius) -
+                                              2.0 * cut / std::max(1.0, static_cast<double>(estimate.discs)));
+  estimate.bonds = std::llround(0.5 * estimate.bonds_per_disc * static_cast<double>(estimate.discs));
+  estimate_steps(design, layout, discs, estimate);
+  estimate_resources(design, threads, estimate);
+  return estimate;
+}
+
+}  // namespace perfora::optimize

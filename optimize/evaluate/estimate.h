@@ -1,0 +1,41 @@
+// What is here: what a design would take, from counts and closed forms alone: discs, bonds, steps, memory, disk, time.
+// What is not: any packing or run.
+#pragma once
+
+#include <cstdint>
+
+#include "optimize/evaluate/design.h"
+
+namespace perfora::optimize {
+
+/// Expected numbers of one evaluation. Discs and bonds are good to a few per cent, steps to some twenty per cent,
+/// seconds to a factor of two.
+struct DesignEstimate {
+  std::int64_t perforations = 0;
+  std::int64_t discs = 0;  ///< left by the perforations
+  double bonds_per_disc = 0.0;
+  std::int64_t bonds = 0;
+  std::int64_t steps = 0;
+  double time_step = 0.0;  ///< s
+  double rate = 0.0;       ///< 1/s
+  double memory_bytes = 0.0, disk_bytes = 0.0, seconds = 0.0;
+  double porosity = 0.0;        ///< share of the perforations
+  double horizon_radius = 0.0;  ///< r_H, m
+  geometry::ThinnestWall thinnest_wall;
+};
+
+/// `design` must be valid (DesignFile::validate). `threads` >= 1. Cost: milliseconds (an imported packing is read).
+DesignEstimate estimate_design(const DesignFile& design, int threads);
+
+/// Mean bonds per disc of a packing with `density` discs per area (1/m2), bond radius `radius`, outside the
+/// perforations of `layout` (walls no thinner than `radius`). Pairs of a random-looking packing at distance up to r, in
+/// closed form: density x the mean over distances h <= r of the area shared by the solid and the solid moved by h (set
+/// covariance; lens area of each hole), minus the disc itself.
+double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double density, double radius);
+
+/// Bonds that edges with no periodic image cut: of random pairs at distances up to r, (2/3) density^2 r^3 cross a line
+/// of unit length, here the parts of the edges that lie in the solid.
+double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,
+                          double density, double radius);
+
+}  // namespace perfora::optimize

@@ -1,0 +1,235 @@
+// What is here: the way of one design: layout, packing, clipping, compression. What is not: JSON (json.cpp), requests
+// (request.cpp), P.h5 (pack_file.cpp).
+#include "optimize/evaluate/evaluation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/packing_file.h"
+#include "io/hdf5.h"
+#include "io/provenance.h"
+#include "optimize/evaluate/packing_cache.h"
+#include "solver/bond_network.h"
+
+namespace perfora::optimize {
+
+namespace {
+
+constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
+
+/// A summary of a run that never began.
+solver::Summary empty_summary() {
+  solver::Summary summary;
+  for (double* value : {&summary.time_step,
+                        &summary.rate,
+                        &summary.smallest_rate,
+                        &summary.largest_rate,
+                        &summary.first_peak_stress,
+                        &summary.first_peak_strain,
+                        &summary.stress_drop_ratio,
+                        &summary.plateau_stress,
+                        &summary.minimum_stress_in_window,
+                        &summary.undulation,
+                        &summary.densification_strain,
+                        &summary.efficiency_strain,
+                        &summary.only_rising_strain,
+                        &summary.recovery_strain,
+                        &summary.intermediate_peaks,
+                        &summary.energy_absorbed,
+                        &summary.cundall_share,
+                        &summary.largest_fragment_fraction,
+                        &summary.max_overlap_in_run,
+                        &summary.energy_residual,
+                        &summary.stress_asymmetry,
+                        &summary.transits_before_peak,
+                        &summary.kinetic_ratio_at_peak,
+                        &summary.step_margin})
+    *value = not_reached;
+  return summary;
+}
+
+PackSummary empty_pack_summary() {
+  PackSummary summary;
+  for (double* value : {&summary.mean_diameter, &summary.solid_fraction, &summary.porosity, &summary.bonds_per_disc,
+                        &summary.thinnest_wall_discretised, &summary.max_overlap_ratio, &summary.coordination_number,
+                        &summary.rattler_fraction})
+    *value = not_reached;
+  return summary;
+}
+
+geometry::Packing packing_from_file(const std::filesystem::path& path, const geometry::PackingKey& wanted) {
+  const io::Hdf5Reader file(path);
+  geometry::Packing packing = geometry::read_packing(file, "/packing");
+  geometry::require_same_key(wanted, packing.key, path);
+  return packing;
+}
+
+/// The packing a design asks for: imported, from `packing_file`, from memory, or made now.
+std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, const EvaluateOptions& options,
+                                                          std::uint64_t seed) {
+  const double width = design.layout.width, height = design.layout.height;
+  if (!design.packing.file.empty()) {
+    auto imported =
+        std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing.file, width, height));
+    if (options.packing_file.empty()) return imported;
+    return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, imported->key));
+  }
+  const geometry::PackingKey key = geometry::packing_key(design.packing, width, height, seed);
+  if (!options.packing_file.empty())
+    return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, key));
+  return cached_packing(key, [&] {
+    return geometry::make_packing(design.packing, width, height, seed, options.threads, options.progress);
+  });
+}
+
+PackSummary summarise(const geometry::PerforationLayout& layout, const geometry::Packing& periodic,
+                      const geometry::Packing& clipped) {
+  PackSummary summary;
+  summary.discs = clipped.size();
+  summary.perforations = static_cast<std::int64_t>(layout.perforations.size());
+  summary.mean_diameter = periodic.mean_diameter();
+  summary.solid_fraction = periodic.quality.solid_fraction;
+  summary.porosity = 1.0 - layout.solid_area_fraction();
+  summary.bonds_per_disc = not_reached;
+  summary.thinnest_wall = geometry::thinnest_wall(layout);
+  summary.thinnest_wall_discretised = geometry::thinnest_wall_discretised(clipped, layout);
+  summary.max_overlap_ratio = periodic.quality.max_overlap_ratio;
+  summary.coordination_number = periodic.quality.coordination_number;
+  summary.rattler_fraction = periodic.quality.rattler_fraction;
+  return summary;
+}
+
+/// Layout, packings, summary without bonds.
+PackedDesign pack_without_bonds(const DesignFile& file, const EvaluateOptions& options, const Seeds::Effective& seeds) {
+  const Design& design = file.design();
+  PackedDesign packed;
+  packed.layout = geometry::make_layout(design.layout, seeds.layout, &file.schema());
+  packed.periodic = *periodic_packing(design, options, seeds.packing);
+  packed.clipped = geometry::clip_packing(packed.periodic, packed.layout, design.packing.clip);
+  packed.summary = summarise(packed.layout, packed.periodic, packed.clipped);
+  return packed;
+}
+
+/// The results of a run as an evaluation; curve and all.
+Evaluation evaluation_of(const solver::Response& response, const PackSummary& pack, const Seeds::Effective& seeds,
+                         int replicate) {
+  Evaluation evaluation;
+  evaluation.replicate = replicate;
+  evaluation.seeds = seeds;
+  evaluation.status = response.summary.status;
+  evaluation.reason = response.summary.reason;
+  evaluation.pack = pack;
+  evaluation.pack.bonds_per_disc = response.bonds_per_disc;
+  evaluation.summary = response.summary;
+  evaluation.performance = response.performance;
+  return evaluation;
+}
+
+solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packed, const EvaluateOptions& options,
+                               const Seeds::Effective& seeds) {
+  solver::RunRequest request;
+  request.clipped = &packed.clipped;
+  request.layout = &packed.layout;
+  request.periodic = &packed.periodic;
+  request.options = file.design().solver;
+  request.noise_seed = seeds.noise;
+  request.threads = options.threads;
+  request.mean_diameter = mean_diameter_of(file, packed.periodic);
+  request.run_file = options.run_file;
+  request.resume = options.resume;
+  request.wall_time_limit = options.wall_time_limit;
+  request.progress = options.progress;
+  request.provenance.config_toml = file.schema().to_toml();
+  request.provenance.seeds_json = to_json(seeds).dump();
+  request.provenance.command_line = options.command_line;
+  request.provenance.program_version = io::program_version();
+  request.provenance.git_revision = io::git_revision();
+  request.provenance.compiler = io::compiler();
+  request.provenance.results_version = results_version;
+  return request;
+}
+
+}  // namespace
+
+double mean_diameter_of(const DesignFile& design, const geometry::Packing& periodic) {
+  return design.design().packing.file.empty() ? design.design().packing.mean_diameter : periodic.mean_diameter();
+}
+
+PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+  const Seeds::Effective seeds = design.design().seeds.effective(replicate);
+  PackedDesign packed = pack_without_bonds(design, options, seeds);
+  if (packed.periodic.quality.reached && packed.clipped.size() > 0) {
+    const std::int64_t bonds =
+        solver::count_bonds(packed.clipped, packed.layout, design.design().solver.material.horizon,
+                            mean_diameter_of(design, packed.periodic));
+    packed.summary.bonds_per_disc = 2.0 * static_cast<double>(bonds) / static_cast<double>(packed.clipped.size());
+  }
+  return packed;
+}
+
+Evaluation failed_evaluation(const std::string& reason, int replicate, const Seeds::Effective& seeds) {
+  Evaluation evaluation;
+  evaluation.status = solver::RunStatus::failed;
+  evaluation.reason = reason;
+  evaluation.replicate = replicate;
+  evaluation.seeds = seeds;
+  evaluation.pack = empty_pack_summary();
+  evaluation.summary = empty_summary();
+  evaluation.summary.status = evaluation.status;
+  evaluation.summary.reason = reason;
+  return evaluation;
+}
+
+void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate) {
+  EvaluateOptions options;
+  options.packing_file = packing_file;
+  static_cast<void>(periodic_packing(design.design(), options, design.design().seeds.effective(replicate).packing));
+}
+
+std::optional<Evaluation> finished_evaluation(const DesignFile& design, const std::filesystem::path& run_file,
+                                              int replicate) {
+  if (!std::filesystem::exists(run_file)) return std::nullopt;
+  const io::Hdf5Reader file(run_file);
+  if (!file.has("/summary") || !file.has("/config")) return std::nullopt;
+  const nlohmann::json record = nlohmann::json::parse(file.text("/summary"), nullptr, false);
+  if (!record.is_object() || record.value("schema", "") != "perfora.evaluate/1") return std::nullopt;
+  Evaluation evaluation = evaluation_from_json(record);
+  if (evaluation.status == solver::RunStatus::stopped) return std::nullopt;
+  if (file.text("/config") != design.schema().to_toml() || evaluation.replicate != replicate ||
+      evaluation.seeds != design.design().seeds.effective(replicate) ||
+      record.value("results_version", 0) != results_version)
+    throw io::InputError(
+        {run_file.string(), 0, ""}, "holds a finished run of another design, strain, seed or program version", "",
+        "resume with the design and flags it was made with, start anew with --force, or name another output");
+  evaluation.curve.strain_yy = file.doubles("/history/strain_yy");
+  evaluation.curve.stress_yy = file.doubles("/history/stress_yy");
+  return evaluation;
+}
+
+Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+  if (options.resume && !options.run_file.empty())
+    if (auto finished = finished_evaluation(design, options.run_file, replicate)) return std::move(*finished);
+  const Seeds::Effective seeds = design.design().seeds.effective(replicate);
+  const PackedDesign packed = pack_without_bonds(design, options, seeds);
+  if (!packed.periodic.quality.reached || packed.clipped.size() == 0) {
+    Evaluation failed =
+        failed_evaluation(packed.periodic.quality.reached ? "no disc is left between the perforations"
+                                                          : "packing not reached: " + packed.periodic.quality.reason,
+                          replicate, seeds);
+    failed.pack = packed.summary;
+    failed.performance.threads = options.threads;
+    return failed;
+  }
+  solver::RunRequest request = run_request(design, packed, options, seeds);
+  request.summary_text = [&](const solver::Response& response) {
+    return to_json(evaluation_of(response, packed.summary, seeds, replicate), false).dump(2);
+  };
+  solver::Response response = solver::run_compression(request);
+  Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate);
+  evaluation.curve = std::move(response.history);
+  return evaluation;
+}
+
+}  // namespace perfora::optimize

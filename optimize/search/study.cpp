@@ -1,0 +1,351 @@
+// What is here: reading a study file and saying what is wrong with it; designs at a point. What is not: arms
+// (study_arms.cpp).
+#include "optimize/search/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "io/text.h"
+#include "optimize/search/nlopt_search.h"
+#include "optimize/search/study_arms.h"
+
+namespace perfora::optimize {
+namespace {
+
+void describe(io::Schema& schema, StudyKeys& keys) {
+  using io::Dimension;
+  using io::Range;
+  auto section = schema.section("study", "How to search.");
+  section.path("design", keys.design, "Design file the search starts from");
+  section.text("algorithm", keys.algorithm, "Derivative-free NLopt algorithm, by NLopt's name");
+  section.integer("maxeval", keys.maxeval, Range::non_negative(), "Candidates in total, over all arms");
+  section.text(
+      "allocation", keys.allocation,
+      "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the share of an arm's bounds that keeps the "
+      "constraints) or a list of numbers");
+  section.integer("replicates", keys.replicates, Range::at_least(1),
+                  "Simulations a candidate, each with seeds of its own");
+  section.integer("final_replicates", keys.final_replicates, Range::non_negative(),
+                  "Fresh seeds on which the best and the start design are run again at the end");
+  section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true},
+               "Strain to run to; 0: as the design says");
+  section.integer("starts", keys.starts, Range::at_least(1), "Arms that differ only in where a local algorithm begins");
+  section.real("initial_step", keys.initial_step, Dimension::ratio, Range{0.0, 1.0, true, false},
+               "First step of a local algorithm as a share of the bounds");
+  section.integer("population", keys.population, Range::non_negative(),
+                  "Population of CRS2, ISRES, ESCH; 0: NLopt's choice");
+  section.real("xtol", keys.xtol, Dimension::ratio, Range{0.0, 1.0, false, true},
+               "Stop when steps are smaller; share of the bounds");
+  section.real("ftol", keys.ftol, Dimension::none, Range::non_negative(), "Stop when the score changes by less");
+  section.real("stop_score", keys.stop_score, Dimension::none, Range::non_negative(),
+               "An arm ends at a score as low as this; 0: never");
+  section.text("refine", keys.refine, "Local algorithm of a second stage from the best candidate; empty: none");
+  section.integer("refine_maxeval", keys.refine_maxeval, Range::non_negative(), "Candidates of the second stage");
+  section.real("refine_step", keys.refine_step, Dimension::ratio, Range{0.0, 1.0, true, false},
+               "First step of the second stage as a share of the bounds");
+  section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
+}
+
+std::string section_of(std::string_view key) {
+  return std::string(key.substr(0, key.find('.')));
+}
+
+bool belongs_to_study(const std::string& override_text) {
+  static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms", "set"};
+  return sections.contains(section_of(override_text));
+}
+
+/// Everything that is needed while a study file is read.
+struct Reader {
+  std::filesystem::path path;
+  Study study;
+  io::Schema schema;
+  std::vector<io::Entry> variables, arms;
+  std::vector<io::Entry> fixed;  ///< [set]: keys of the design that differ from its file
+
+  explicit Reader(const std::filesystem::path& file) : path(file) {
+    describe(schema, study.keys);
+    describe(schema, study.target);
+    describe(schema, study.constraints);
+    study.file = file;
+  }
+
+  io::Origin origin(const std::string& key) const {
+    const io::Origin known = schema.find(key) ? schema.origin(key) : io::Origin{path.string(), 0, key};
+    return known.file == "default" || known.file.empty() ? io::Origin{path.string(), 0, key} : known;
+  }
+
+  /// `allocation` may be a list of whole numbers; the table of keys knows one type a key.
+  static void flatten_allocation(io::Entry& entry, const io::Origin& origin) {
+    const auto* list = std::get_if<io::ValueList>(&entry.value.data);
+    if (entry.key != "study.allocation" || !list) return;
+    std::string text;
+    for (const io::Value& item : *list) {
+      const auto* number = std::get_if<std::int64_t>(&item.data);
+      if (!number || *number < 0)
+        throw io::InputError(origin, "the list holds something that is not a number of candidates",
+                             "\"equal\", \"proportional\" or whole numbers >= 0, one an arm", "");
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", *number);
+    }
+    entry.value.data = text;
+  }
+
+  static void replace(std::vector<io::Entry>& list, io::Entry entry) {
+    std::erase_if(list, [&](const io::Entry& other) { return other.key == entry.key; });
+    list.push_back(std::move(entry));
+  }
+
+  void take(io::Entry entry, const std::string& source) {
+    const std::string section = section_of(entry.key);
+    if (section == "variables" || section == "arms" || section == "set") {
+      std::erase_if(entry.key,
+                    [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
+      return replace(section == "arms" ? arms : section == "set" ? fixed : variables, std::move(entry));
+    }
+    flatten_allocation(entry, {source, entry.value.line, entry.key});
+    io::apply_entries(schema, {entry}, source);
+  }
+
+  void read(const std::vector<std::string>& overrides) {
+    for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
+    std::vector<std::string> of_design;
+    for (const std::string& text : overrides) {
+      if (!belongs_to_study(text))
+        of_design.push_back(text);
+      else if (section_of(text) == "variables" || section_of(text) == "arms" || section_of(text) == "set")
+        for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
+      else
+        schema.set_override(text);
+    }
+    if (study.keys.design.empty())
+      throw io::InputError({path.string(), 0, "study.design"}, "no design is named to start from",
+                           "the path of a design file", "add design = \"quick.toml\" under [study]");
+    auto start = std::make_shared<DesignFile>(study.keys.design, of_design);
+    for (io::Entry& entry : fixed) {
+      entry.key = io::after_section(entry.key);
+      io::apply_entries(start->schema(), {entry}, path.string());
+    }
+    for (const std::string& text : of_design)
+      start->schema().set_override(text);  // The command line has the last word.
+    check_numbers(*start);
+    study.warnings = start->validate();
+    study.start = start;
+  }
+
+  void check_numbers(DesignFile& start) {
+    if (study.keys.maxeval < 1)
+      throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
+                           "add maxeval = 24 under [study]; most algorithms never stop by themselves");
+    if (!(study.target.plateau_stress > 0.0))
+      throw io::InputError(origin("target.plateau_stress"), "the target is missing or zero", "a stress above 0",
+                           "add plateau_stress = \"0.2 MPa\" under [target]");
+    set_window(start);
+    check_algorithms();
+    const auto& porosity = study.constraints.porosity;
+    if (!porosity.empty() && (porosity.size() != 2 || !(porosity[0] <= porosity[1]) || !(porosity[1] > 0.0)))
+      throw io::InputError(origin("constraints.porosity"), "this is not a range",
+                           "[lowest, highest] with 0 <= lowest <= highest", "write for example porosity = [0.2, 0.4]");
+  }
+
+  void set_window(DesignFile& start) {
+    const auto& window = study.target.window;
+    if (window.size() != 2 || !(window[0] < window[1]))
+      throw io::InputError(origin("target.window"), "this is not a window of strain",
+                           "[start, end] with 0 <= start < end < 1", "write for example window = [0.2, 0.4]");
+    auto& solver = start.design().solver;
+    solver.measures.plateau_start = window[0];
+    solver.measures.plateau_end = window[1];
+    if (study.keys.until > 0.0) solver.loading.until = study.keys.until;
+    if (solver.loading.until < window[1])
+      throw io::InputError(origin(study.keys.until > 0.0 ? "study.until" : "target.window"),
+                           fmt::format("the window ends at strain {:g}, the runs end at {:g} before it", window[1],
+                                       solver.loading.until),
+                           "a run at least as long as the window", "raise study.until or shorten target.window");
+  }
+
+  void check_algorithms() {
+    std::string problem;
+    const std::string asked = study.keys.algorithm;
+    study.keys.algorithm = canonical_algorithm(asked, problem);
+    if (study.keys.algorithm.empty()) refuse_algorithm("study.algorithm", asked, problem, "");
+    if (study.keys.refine.empty()) return;
+    const std::string local = study.keys.refine;
+    study.keys.refine = canonical_algorithm(local, problem);
+    if (!study.keys.refine.empty() && study.keys.refine.rfind("LN_", 0) != 0)
+      problem = fmt::format("\"{}\" is not a local algorithm", local), study.keys.refine.clear();
+    if (study.keys.refine.empty()) refuse_algorithm("study.refine", local, problem, "LN_");
+    if (study.keys.refine_maxeval < 1)
+      throw io::InputError(origin("study.refine_maxeval"), "the second stage has no candidates", "a whole number >= 1",
+                           "add refine_maxeval = 8, or leave refine out");
+  }
+
+  [[noreturn]] void refuse_algorithm(const std::string& key, const std::string& asked, const std::string& problem,
+                                     const std::string& prefix) const {
+    std::vector<std::string> allowed;
+    for (const auto& name : derivative_free_algorithms())
+      if (name.rfind(prefix, 0) == 0) allowed.push_back(name);
+    const std::string nearest = io::nearest_name(asked, allowed);
+    throw io::InputError(origin(key), problem, fmt::format("{}", fmt::join(allowed, ", ")),
+                         nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
+  }
+
+  void check_dimension() const {
+    const int n = static_cast<int>(study.variables.size());
+    for (const auto& [key, name] :
+         {std::pair{"study.algorithm", study.keys.algorithm}, {"study.refine", study.keys.refine}}) {
+      if (name.empty()) continue;
+      if (n < smallest_dimension(name))
+        throw io::InputError(
+            origin(key),
+            fmt::format("{} needs at least {} variables, the study has {}", name, smallest_dimension(name), n), "",
+            "take another algorithm, such as LN_BOBYQA or LN_SBPLX");
+      if (n > largest_dimension(name))
+        throw io::InputError(
+            origin(key),
+            fmt::format("{} takes at most {} variables, the study has {}", name, largest_dimension(name), n), "",
+            "take another algorithm, such as GN_DIRECT_L");
+    }
+  }
+
+  void warn() {
+    auto& warnings = study.warnings;
+    int fewest = study.keys.maxeval;
+    for (const Arm& arm : study.arms) fewest = std::min(fewest, arm.maxeval);
+    const int n = static_cast<int>(study.variables.size());
+    const int population = first_population(study.keys.algorithm, n, study.keys.population);
+    if (population >= fewest)
+      warnings.push_back(fmt::format(
+          "{} spends its first {} points on a population and has only {} an arm: it will only sample; raise "
+          "maxeval or set population",
+          study.keys.algorithm, population, fewest));
+    if (fits_models(study.keys.algorithm) && !takes_constraints(study.keys.algorithm))
+      warnings.push_back(
+          fmt::format("{} fits smooth models, which candidates that fail or break a constraint upset; LN_SBPLX and "
+                      "LN_COBYLA bear them better",
+                      study.keys.algorithm));
+    if (study.keys.replicates == 1)
+      warnings.push_back(
+          "one replicate a candidate: the score holds the luck of one packing; final_replicates tells how much of the "
+          "gain is real");
+    if (study.keys.final_replicates < 2)
+      warnings.push_back("final_replicates below 2: nothing will say whether the gain exceeds the noise");
+  }
+};
+
+/// Keys of the design that change what is written but no result.
+bool only_output(const std::string& key) {
+  return key == "output.frames" || key == "output.frame_strains" || key == "output.checkpoint_interval";
+}
+
+}  // namespace
+
+std::vector<double> Study::values_at(std::span<const double> x) const {
+  std::vector<double> values(variables.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Variable& variable = variables[k];
+    const double value = io::rounded(variable.low + std::clamp(x[k], 0.0, 1.0) * (variable.high - variable.low));
+    values[k] = std::clamp(value, variable.low, variable.high);
+  }
+  return values;
+}
+
+std::vector<double> Study::point_of(std::span<const double> values) const {
+  std::vector<double> x(variables.size());
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] = std::clamp((values[k] - variables[k].low) / (variables[k].high - variables[k].low), 0.0, 1.0);
+  return x;
+}
+
+DesignFile Study::design_at(const Arm* arm, std::span<const double> values) const {
+  DesignFile made;
+  made.design() = start->design();
+  if (arm)
+    for (const ArmChoice& choice : arm->choices)
+      made.schema().set(choice.key, choice.value, {file.string(), choice.value.line, choice.key});
+  for (std::size_t k = 0; k < values.size(); ++k)
+    made.schema().set_number(variables[k].key, values[k], {file.string(), 0, variables[k].key});
+  return made;
+}
+
+std::map<std::string, std::string> Study::resolved() const {
+  std::map<std::string, std::string> all;
+  StudyKeys own = keys;
+  TargetKeys aim = target;
+  ConstraintKeys limits = constraints;
+  io::Schema schema;
+  describe(schema, own);
+  describe(schema, aim);
+  describe(schema, limits);
+  for (const io::Key& key : schema.keys())
+    if (key.full_name() != "study.design" && key.full_name() != "study.workers")
+      all[key.full_name()] = io::value_text(key.get());
+  for (const Variable& variable : variables)
+    all["variables." + variable.key] = fmt::format("[{:.17g}, {:.17g}]", variable.low, variable.high);
+  std::string names;
+  for (const Arm& arm : arms) names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", arm.name, arm.maxeval);
+  all["arms"] = names;
+  for (const io::Key& key : start->schema().keys())
+    if (!only_output(key.full_name())) all["design." + key.full_name()] = io::value_text(key.get());
+  return all;
+}
+
+std::set<std::string> Study::at_default() const {
+  std::set<std::string> names;
+  StudyKeys own;
+  TargetKeys aim;
+  ConstraintKeys limits;
+  io::Schema schema;  // bound to the defaults, then given what this study has
+  describe(schema, own);
+  describe(schema, aim);
+  describe(schema, limits);
+  own = keys;
+  aim = target;
+  limits = constraints;
+  for (const io::Key& key : schema.keys())
+    if (key.at_default()) names.insert(key.full_name());
+  for (const io::Key& key : start->schema().keys())
+    if (key.at_default()) names.insert("design." + key.full_name());
+  return names;
+}
+
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Reader reader(path);
+  reader.read(overrides);
+  ArmEntries entries;
+  for (const io::Entry& entry : reader.variables)
+    entries.variables.push_back({io::after_section(entry.key), entry.value});
+  for (const io::Entry& entry : reader.arms) entries.arms.push_back({io::after_section(entry.key), entry.value});
+  make_variables(reader.study, entries);
+  reader.check_dimension();
+  make_arms(reader.study, entries, reader.origin("study.allocation"));
+  reader.warn();
+  return std::move(reader.study);
+}
+
+std::string study_reference() {
+  StudyKeys keys;
+  TargetKeys target;
+  ConstraintKeys constraints;
+  io::Schema schema;
+  describe(schema, keys);
+  describe(schema, target);
+  describe(schema, constraints);
+  return schema.reference();
+}
+
+StudyEstimate check_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  const Study study = read_study(path, overrides);
+  StudyEstimate estimate;
+  estimate.arms = study.arms;
+  estimate.candidates = std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval);
+  estimate.simulations =
+      (estimate.candidates + 1) * study.keys.replicates + 2 * std::int64_t{study.keys.final_replicates};
+  estimate.warnings = study.warnings;
+  estimate.start = study.start;
+  return estimate;
+}
+
+}  // namespace perfora::optimize

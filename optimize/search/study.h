@@ -1,0 +1,107 @@
+// What is here: the study file as plain data: what to vary, what to aim at, how to search, which arms that makes;
+// reading and checking it. What is not: the search itself (driver.h), its folder (study_run.h).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "optimize/evaluate/design.h"
+#include "optimize/search/constraints.h"
+#include "optimize/search/objective.h"
+
+namespace perfora::optimize {
+
+/// [study]
+struct StudyKeys {
+  std::filesystem::path design;           ///< design file the search starts from; relative to the study file
+  std::string algorithm = "GN_DIRECT_L";  ///< by NLopt's name
+  int maxeval = 0;                        ///< candidates in total, over all arms; must be given
+  std::string allocation =
+      "equal";         ///< of maxeval to arms: "equal", "proportional", or a list of numbers, one an arm ("6, 6, 4")
+  int replicates = 1;  ///< a candidate; replicate r has the same seeds for every candidate
+  int final_replicates = 5;    ///< fresh seeds on which best and start are run again; 0: none
+  double until = 0.0;          ///< engineering strain; 0: as the design says
+  int starts = 1;              ///< arms that differ only in where a local algorithm begins
+  double initial_step = 0.25;  ///< of local algorithms, as a share of the bounds
+  int population = 0;          ///< 0: NLopt's own
+  double xtol = 0.0;           ///< as a share of the bounds
+  double ftol = 0.0;           ///< on the score
+  double stop_score = 0.0;     ///< an arm ends at a score as low as this; 0: never
+  std::string refine;          ///< local algorithm of a second stage that begins at the best candidate; "": none
+  int refine_maxeval = 0;      ///< candidates of the second stage, beside maxeval
+  double refine_step = 0.05;   ///< its initial step, as a share of the bounds
+  int workers = 0;             ///< evaluations at once; 0: one a core. The result does not depend on it
+};
+
+/// One continuous variable: a numeric key of the design with its bounds (SI).
+struct Variable {
+  std::string key;
+  double low = 0.0, high = 0.0;
+  io::Dimension dimension = io::Dimension::none;
+};
+
+/// One fixed choice of an arm, such as layout.rows = 3.
+struct ArmChoice {
+  std::string key;
+  io::Value value;
+};
+
+/// One sequential search: family x rows x columns x ... x start.
+struct Arm {
+  std::string name;  ///< "family=square rows=2 columns=3"; "all" when there is only one
+  std::vector<ArmChoice> choices;
+  std::vector<double> start;  ///< first point of a local algorithm, each coordinate in [0, 1]
+  int maxeval = 0;
+  std::uint32_t seed = 1;  ///< of NLopt; from the search seed and the arm's name, so that arms do not change each other
+};
+
+/// A study, read and checked. Copies share the design.
+struct Study {
+  std::filesystem::path file;
+  StudyKeys keys;
+  TargetKeys target;
+  ConstraintKeys constraints;
+  std::vector<Variable> variables;
+  std::vector<Arm> arms;
+  std::shared_ptr<const DesignFile> start;  ///< the design it starts from, window and strain of the study set
+  std::vector<std::string> warnings;
+
+  /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",
+  /// "design.material.horizon", ...); file names, workers and output options are left out.
+  std::map<std::string, std::string> resolved() const;
+  /// Names in resolved() whose keys are at their defaults.
+  std::set<std::string> at_default() const;
+  /// Values of a point of the unit cube: low + x (high - low), rounded to 12 digits so that equal points give equal
+  /// keys on every machine.
+  std::vector<double> values_at(std::span<const double> x) const;
+  /// The point of the unit cube for values (clamped to the bounds).
+  std::vector<double> point_of(std::span<const double> values) const;
+  /// A design of an arm (nullptr: the start's own choices) with the variables set. Throws io::InputError when a key
+  /// refuses its value.
+  DesignFile design_at(const Arm* arm, std::span<const double> values) const;
+  double until() const { return start->design().solver.loading.until; }
+};
+
+/// Reads and checks a study file and the design it names. `overrides` are "section.key=value" texts; those of [study],
+/// [target] and [constraints] go to the study, all others to the design. Throws io::InputError.
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// Keys of a study file in one printed reference (Markdown).
+std::string study_reference();
+
+/// What a study would run, for `perfora check`.
+struct StudyEstimate {
+  std::vector<Arm> arms;
+  std::int64_t candidates = 0;   ///< maxeval + refine_maxeval
+  std::int64_t simulations = 0;  ///< at most: (candidates + start) x replicates + 2 x final_replicates
+  std::vector<std::string> warnings;
+  std::shared_ptr<const DesignFile> start;
+};
+StudyEstimate check_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+}  // namespace perfora::optimize

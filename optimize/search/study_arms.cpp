@@ -1,0 +1,359 @@
+// What is here: variables and arms of a study. What is not: the file (study.cpp).
+#include "optimize/search/study_arms.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "io/journal.h"
+#include "optimize/search/nlopt_search.h"
+
+namespace perfora::optimize {
+namespace {
+
+/// Points on which the share of an arm's bounds that keeps the constraints is measured.
+constexpr int samples = 64;
+/// Points on which two arms are held against each other: those that differ have other holes at any of them.
+constexpr int compared = 3;
+/// A product of choices beyond this is a slip of the pen.
+constexpr std::size_t most_arms = 1000;
+
+struct Axis {
+  std::string key;
+  std::vector<io::Value> values;
+};
+
+std::string value_name(const io::Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
+  if (const auto* number = std::get_if<std::int64_t>(&value.data)) return fmt::format("{}", *number);
+  return "?";
+}
+
+io::Origin origin_in(const Study& study, const std::string& table, const io::Entry& entry) {
+  return {study.file.string(), entry.value.line, table + "." + entry.key};
+}
+
+/// The key of the design that an entry names; the section "layout" may be left out.
+const io::Key& layout_key(const Study& study, const std::string& table, const io::Entry& entry) {
+  const io::Schema& schema = study.start->schema();
+  const std::string name = entry.key.find('.') == std::string::npos ? "layout." + entry.key : entry.key;
+  const io::Key* key = schema.find(name);
+  if (key && key->section == "layout" && (key->numeric() || key->type == io::KeyType::choice)) return *key;
+  std::vector<std::string> allowed;
+  for (const io::Key& other : schema.keys())
+    if (other.section == "layout" && (other.numeric() || (table == "arms" && other.type == io::KeyType::choice)))
+      allowed.push_back(other.full_name());
+  const std::string nearest = io::nearest_name(name, allowed);
+  throw io::InputError(origin_in(study, table, entry), key ? "a study cannot vary this key" : "there is no such key",
+                       fmt::format("{}", fmt::join(allowed, ", ")),
+                       nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
+}
+
+const io::ValueList& list_of(const Study& study, const std::string& table, const io::Entry& entry,
+                             const std::string& allowed) {
+  const auto* list = std::get_if<io::ValueList>(&entry.value.data);
+  if (!list || list->empty())
+    throw io::InputError(origin_in(study, table, entry), "a list is wanted here", allowed, "");
+  return *list;
+}
+
+/// Both bounds in SI, checked against the key's range.
+std::pair<double, double> bounds(const Study& study, const io::Key& key, const io::Entry& entry) {
+  const io::Origin origin = origin_in(study, "variables", entry);
+  const auto& list = list_of(study, "variables", entry, "[lowest, highest]");
+  if (list.size() != 2)
+    throw io::InputError(origin, fmt::format("bounds are two numbers, not {}", list.size()), "[lowest, highest]", "");
+  double bound[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    bound[k] = io::parse_quantity(list[k], key.dimension, origin);
+    if (!key.range.contains(bound[k]))
+      throw io::InputError(origin, fmt::format("the bound {:g} is out of range", bound[k]), key.range.text(), "");
+  }
+  return {bound[0], bound[1]};
+}
+
+[[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high) {
+  throw io::InputError(origin_in(study, "variables", entry),
+                       fmt::format("nothing lies between the bounds {:g} and {:g}", low, high), "lowest < highest",
+                       "write the smaller one first, or set the key in the design instead");
+}
+
+Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
+  const auto [low, high] = bounds(study, key, entry);
+  if (low != std::floor(low) || high != std::floor(high))
+    throw io::InputError(origin_in(study, "variables", entry), "the bounds of a whole number must be whole numbers",
+                         "[2, 4]", "");
+  if (low > high) refuse_empty_bounds(study, entry, low, high);
+  Axis axis{key.full_name(), {}};
+  for (auto value = static_cast<std::int64_t>(low); value <= static_cast<std::int64_t>(high); ++value) {
+    io::Value item;
+    item.data = value;
+    item.line = entry.value.line;
+    axis.values.push_back(item);
+    if (axis.values.size() > most_arms)
+      throw io::InputError(origin_in(study, "variables", entry), "far too many arms",
+                           fmt::format("at most {}", most_arms), "narrow the range");
+  }
+  return axis;
+}
+
+Axis list_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
+  Axis axis{key.full_name(), {}};
+  DesignFile scratch;
+  scratch.design() = study.start->design();
+  for (const io::Value& value :
+       list_of(study, "arms", entry, "a list of values, such as [2, 3] or [\"square\", \"staggered\"]")) {
+    if (key.type == io::KeyType::real)
+      throw io::InputError(origin_in(study, "arms", entry), "arms are whole numbers or names", "",
+                           fmt::format("move {} to [variables] with bounds", key.full_name()));
+    scratch.schema().set(key.full_name(), value, origin_in(study, "arms", entry));
+    const bool known = std::any_of(axis.values.begin(), axis.values.end(),
+                                   [&](const io::Value& other) { return value_name(other) == value_name(value); });
+    if (!known) axis.values.push_back(value);
+  }
+  return axis;
+}
+
+std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
+  std::vector<Axis> axes;
+  auto add = [&](Axis axis, const io::Origin& origin) {
+    for (const Axis& other : axes)
+      if (other.key == axis.key)
+        throw io::InputError(origin, "this key is enumerated twice", "", "name it in [variables] or in [arms]");
+    for (const Variable& variable : study.variables)
+      if (variable.key == axis.key)
+        throw io::InputError(origin, "this key is a variable already", "", "name it in one table");
+    axes.push_back(std::move(axis));
+  };
+  for (const io::Entry& entry : entries.arms)
+    add(list_axis(study, layout_key(study, "arms", entry), entry), origin_in(study, "arms", entry));
+  for (const io::Entry& entry : entries.variables) {
+    const io::Key& key = layout_key(study, "variables", entry);
+    if (key.type == io::KeyType::integer) add(range_axis(study, key, entry), origin_in(study, "variables", entry));
+  }
+  return axes;
+}
+
+std::string arm_name(const Arm& arm, int start, int starts) {
+  std::string name;
+  for (const ArmChoice& choice : arm.choices)
+    name += fmt::format("{}{}={}", name.empty() ? "" : " ", choice.key.substr(choice.key.find('.') + 1),
+                        value_name(choice.value));
+  if (starts > 1) name += fmt::format("{}start={}", name.empty() ? "" : " ", start + 1);
+  return name.empty() ? "all" : name;
+}
+
+/// The product of all axes, the last one running fastest.
+std::vector<Arm> product(const std::vector<Axis>& axes) {
+  std::vector<Arm> arms(1);
+  for (const Axis& axis : axes) {
+    std::vector<Arm> longer;
+    for (const Arm& arm : arms)
+      for (const io::Value& value : axis.values) {
+        longer.push_back(arm);
+        longer.back().choices.push_back({axis.key, value});
+      }
+    arms = std::move(longer);
+    if (arms.size() > most_arms) break;
+  }
+  return arms;
+}
+
+std::vector<double> first_point(const Study& study, int start) {
+  if (start > 0) return halton_point(start, static_cast<int>(study.variables.size()));
+  std::vector<double> values;
+  for (const Variable& variable : study.variables) values.push_back(study.start->schema().get_number(variable.key));
+  return study.point_of(values);
+}
+
+/// Share of an arm's bounds that keeps the constraints; negative when the layout cannot be laid at any sampled point.
+double feasible_share(const Study& study, const Arm& arm) {
+  int laid = 0, kept = 0;
+  for (int k = 0; k < samples; ++k) {
+    const auto values = study.values_at(halton_point(k, static_cast<int>(study.variables.size())));
+    const DesignFile design = study.design_at(&arm, values);
+    const LayoutMeasure measure = measure_layout(design);
+    if (!measure.placed) continue;
+    ++laid;
+    if (violation(constraint_values(study.constraints, design, measure)) == 0.0) ++kept;
+  }
+  return laid == 0 ? -1.0 : static_cast<double>(kept) / samples;
+}
+
+/// An arm's holes at the first points of its bounds.
+struct ArmHoles {
+  bool complete = true;  ///< false: somewhere they cannot be placed
+  std::vector<std::vector<geometry::Perforation>> holes;
+  bool same(const ArmHoles& other) const { return complete && other.complete && holes == other.holes; }
+};
+
+ArmHoles holes_of(const Study& study, const Arm& arm) {
+  ArmHoles found;
+  const int dimension = static_cast<int>(study.variables.size());
+  try {
+    for (int k = 0; k < compared; ++k) {
+      const Design design = study.design_at(&arm, study.values_at(halton_point(k, dimension))).design();
+      found.holes.push_back(geometry::place_perforations(design.layout, design.seeds.effective(0).layout).perforations);
+    }
+  } catch (const io::InputError&) {
+    found.complete = false;  // drop_impossible says why
+  }
+  return found;
+}
+
+/// Arms whose choices say nothing to their family (the turn of a square one) are one and the same search.
+void drop_repeated(Study& study) {
+  std::vector<Arm> different;
+  std::vector<ArmHoles> known;
+  for (const Arm& arm : study.arms) {
+    ArmHoles holes = holes_of(study, arm);
+    std::size_t k = 0;
+    while (k < known.size() && !(different[k].start == arm.start && known[k].same(holes))) ++k;
+    if (k < known.size()) {
+      study.warnings.push_back(
+          fmt::format("arm {} is left out: its holes are those of arm {}", arm.name, different[k].name));
+      continue;
+    }
+    different.push_back(arm);
+    known.push_back(std::move(holes));
+  }
+  study.arms = std::move(different);
+}
+
+std::vector<double> drop_impossible(Study& study) {
+  std::vector<Arm> possible;
+  std::vector<double> shares;
+  for (const Arm& arm : study.arms) {
+    const double share = feasible_share(study, arm);
+    if (share < 0.0) {
+      const auto middle = study.values_at(std::vector<double>(study.variables.size(), 0.5));
+      study.warnings.push_back(
+          fmt::format("arm {} is left out: {}", arm.name, measure_layout(study.design_at(&arm, middle)).problem));
+      continue;
+    }
+    if (share == 0.0)
+      study.warnings.push_back(
+          fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
+    possible.push_back(arm);
+    shares.push_back(share);
+  }
+  if (possible.empty())
+    throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "",
+                         "see the layouts of the design");
+  study.arms = std::move(possible);
+  return shares;
+}
+
+std::vector<int> listed(const Study& study, const io::Origin& origin) {
+  std::vector<int> counts;
+  std::istringstream text(study.keys.allocation);
+  for (std::string item; std::getline(text, item, ',');) {
+    char* end = nullptr;
+    const long count = std::strtol(item.c_str(), &end, 10);
+    while (end && *end == ' ') ++end;
+    if (end == item.c_str() || *end != '\0' || count < 0)
+      throw io::InputError(origin, fmt::format("\"{}\" is no allocation", study.keys.allocation),
+                           "\"equal\", \"proportional\" or a list of whole numbers, one an arm", "");
+    counts.push_back(static_cast<int>(std::min(count, 1000000000L)));
+  }
+  const auto sum = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  if (counts.size() != study.arms.size())
+    throw io::InputError(origin, fmt::format("{} numbers are given for {} arms", counts.size(), study.arms.size()),
+                         "one number an arm", "see `perfora check` for the arms and their order");
+  if (sum != study.keys.maxeval)
+    throw io::InputError(origin, fmt::format("the list adds up to {}, maxeval is {}", sum, study.keys.maxeval), "",
+                         "make them agree");
+  return counts;
+}
+
+void allocate(Study& study, const std::vector<double>& shares, const io::Origin& origin) {
+  std::vector<int> counts;
+  if (study.keys.allocation == "equal")
+    counts = share_out(study.keys.maxeval, std::vector<double>(study.arms.size(), 1.0));
+  else if (study.keys.allocation == "proportional")
+    counts = share_out(study.keys.maxeval, shares);
+  else
+    counts = listed(study, origin);
+  if (study.keys.allocation == "equal" && study.keys.maxeval < static_cast<int>(study.arms.size()))
+    throw io::InputError(origin, fmt::format("maxeval is {} for {} arms", study.keys.maxeval, study.arms.size()),
+                         "at least one candidate an arm", "raise maxeval or take fewer arms");
+  for (std::size_t k = 0; k < counts.size(); ++k) study.arms[k].maxeval = counts[k];
+  std::erase_if(study.arms, [](const Arm& arm) { return arm.maxeval == 0; });
+}
+
+}  // namespace
+
+void make_variables(Study& study, const ArmEntries& entries) {
+  for (const io::Entry& entry : entries.variables) {
+    const io::Key& key = layout_key(study, "variables", entry);
+    if (key.type == io::KeyType::choice)
+      throw io::InputError(origin_in(study, "variables", entry), "names have no bounds", "",
+                           fmt::format("list them in [arms]: {} = [\"square\", \"staggered\"]", key.name));
+    if (key.type == io::KeyType::integer) continue;
+    const auto [low, high] = bounds(study, key, entry);
+    if (!(low < high)) refuse_empty_bounds(study, entry, low, high);
+    study.variables.push_back({key.full_name(), low, high, key.dimension});
+  }
+  if (study.variables.empty())
+    throw io::InputError({study.file.string(), 0, "variables"}, "no continuous variable is given", "",
+                         "add \"layout.diameter\" = [\"16 mm\", \"20 mm\"] under [variables]");
+}
+
+void make_arms(Study& study, const ArmEntries& entries, const io::Origin& allocation) {
+  const auto axes = collect_axes(study, entries);
+  study.arms.clear();
+  for (const Arm& combination : product(axes))
+    for (int start = 0; start < study.keys.starts; ++start) {
+      Arm arm = combination;
+      arm.name = arm_name(arm, start, study.keys.starts);
+      arm.start = first_point(study, start);
+      arm.seed = io::crc32(fmt::format("{} {}", study.start->design().seeds.effective(0).search, arm.name));
+      study.arms.push_back(std::move(arm));
+    }
+  if (study.arms.size() > most_arms)
+    throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms),
+                         "", "narrow them");
+  drop_repeated(study);
+  const auto shares = drop_impossible(study);
+  allocate(study, shares, allocation);
+}
+
+std::vector<double> halton_point(int index, int dimension) {
+  std::vector<double> point;
+  for (int base = 2; static_cast<int>(point.size()) < dimension; ++base) {
+    bool prime = true;
+    for (int divisor = 2; divisor * divisor <= base; ++divisor) prime = prime && base % divisor != 0;
+    if (!prime) continue;
+    double value = 0.0, digit = 1.0;
+    for (int rest = index + 1; rest > 0; rest /= base) {
+      digit /= base;
+      value += digit * (rest % base);
+    }
+    point.push_back(value);
+  }
+  return point;
+}
+
+std::vector<int> share_out(int total, const std::vector<double>& weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const std::size_t n = weights.size();
+  std::vector<int> counts(n);
+  std::vector<double> remainders(n);
+  int given = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double exact = total * (sum > 0.0 ? weights[k] / sum : 1.0 / static_cast<double>(n));
+    counts[k] = static_cast<int>(std::floor(exact));
+    remainders[k] = exact - counts[k];
+    given += counts[k];
+  }
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
+  for (std::size_t k = 0; given < total; k = (k + 1) % n, ++given) ++counts[order[k]];
+  return counts;
+}
+
+}  // namespace perfora::optimize

@@ -1,0 +1,208 @@
+// What is here: the result files of a study. What is not: the search.
+#include "optimize/search/study_result.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "io/csv.h"
+#include "io/journal.h"
+#include "io/text.h"
+#include "optimize/search/nlopt_search.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+
+json score_json(const Score& score) {
+  if (score.replicates == 0) return nullptr;
+  const bool any = score.failed < score.replicates;
+  return {{"score", score.valid ? number(score.value) : json(nullptr)},
+          {"mean", any ? number(score.plateau_mean) : json(nullptr)},
+          {"standard_deviation", any ? number(score.plateau_std) : json(nullptr)},
+          {"undulation", any ? number(score.undulation_mean) : json(nullptr)},
+          {"first_peak_stress", any ? number(score.first_peak_mean) : json(nullptr)},
+          {"count", score.replicates - score.failed},
+          {"failed", score.failed}};
+}
+
+json value_json(const io::Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return *whole;
+  if (const auto* real = std::get_if<double>(&value.data)) return *real;
+  return nullptr;
+}
+
+/// Values of the keys that the study varies.
+json design_values(const Study& study, const Candidate& candidate) {
+  json values = json::object();
+  if (candidate.arm >= 0)
+    for (const ArmChoice& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
+      values[choice.key] = value_json(choice.value);
+  for (std::size_t k = 0; k < candidate.values.size(); ++k) values[study.variables[k].key] = candidate.values[k];
+  return values;
+}
+
+json finals_json(const Finals& finals) {
+  if (finals.replicates == 0 || finals.best.replicates == 0) return nullptr;
+  return {{"replicates", finals.replicates},
+          {"pairs", finals.pairs},
+          {"best", score_json(finals.best)},
+          {"start", score_json(finals.start)},
+          {"best_scores", finals.best_scores},
+          {"start_scores", finals.start_scores},
+          {"gain", finals.pairs > 0 ? number(finals.gain) : json(nullptr)},
+          {"gain_standard_error", finals.pairs > 1 ? number(finals.gain_error) : json(nullptr)},
+          {"significant", finals.significant}};
+}
+
+json arms_json(const StudyRun& run) {
+  json arms = json::array();
+  for (const Trace& trace : run.plan().traces) {
+    const Arm& arm = run.study().arms[static_cast<std::size_t>(trace.arm)];
+    json best = nullptr;
+    std::int64_t answered = 0, violating = 0;
+    for (const Visit& visit : trace.visits) {
+      answered += visit.answered;
+      violating += visit.candidate->violation > 0.0;
+      if (visit.detail.valid && (best.is_null() || visit.score < best.get<double>())) best = visit.score;
+    }
+    arms.push_back({{"name", arm.name},
+                    {"stage", trace.refine ? "refine" : "search"},
+                    {"maxeval", trace.refine ? run.study().keys.refine_maxeval : arm.maxeval},
+                    {"candidates", answered},
+                    {"breaking_a_constraint", violating},
+                    {"best_score", best},
+                    {"stop_reason", trace.finished ? json(trace.reason) : json(nullptr)}});
+  }
+  return arms;
+}
+
+json performance_json(const StudyRun& run) {
+  double memory = 0.0;
+  std::string simd;
+  int threads = 1;
+  double steps = 0.0, bond_steps = 0.0, seconds = 0.0;  // of the simulations alone
+  for (const auto& [key, evaluation] : run.answers()) {
+    memory = std::max(memory, evaluation.performance.peak_memory);
+    simd = evaluation.performance.simd.empty() ? simd : evaluation.performance.simd;
+    threads = std::max(threads, evaluation.performance.threads);
+    const double time = evaluation.performance.seconds, per_bond = evaluation.performance.ns_per_bond_step;
+    if (!(time > 0.0) || !(per_bond > 0.0)) continue;
+    steps += static_cast<double>(evaluation.summary.steps);
+    bond_steps += time / per_bond;
+    seconds += time;
+  }
+  return {{"seconds", run.seconds()},
+          {"simulated_seconds", run.simulated_seconds()},
+          {"retries", run.retries()},
+          {"steps_per_second", seconds > 0.0 ? json(steps / seconds) : json(nullptr)},
+          {"ns_per_bond_step", bond_steps > 0.0 ? json(seconds / bond_steps) : json(nullptr)},
+          {"threads", threads},
+          {"simd", simd},
+          {"peak_memory", number(memory)}};
+}
+
+/// The plateau of the best design on the most seeds there are: fresh ones where they were run.
+json plateau_json(const Plan& plan) {
+  const bool fresh = plan.finals.best.replicates - plan.finals.best.failed > 0;
+  const Score& score = fresh ? plan.finals.best : plan.best_score;
+  return {{"mean", number(score.plateau_mean)},
+          {"standard_deviation", score.replicates - score.failed > 1 ? number(score.plateau_std) : json(nullptr)},
+          {"count", score.replicates - score.failed},
+          {"seeds", fresh ? "fresh" : "of the search"}};
+}
+
+std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place,
+                     const Visit& visit) {
+  std::string line = fmt::format("{},{},{}", stage, io::csv_quoted(arm), place);
+  for (std::size_t k = 0; k < study.variables.size(); ++k) line += fmt::format(",{:.17g}", visit.candidate->values[k]);
+  const bool broken = visit.candidate->violation > 0.0;
+  const char* status = broken               ? "breaks a constraint"
+                       : !visit.answered    ? "open"
+                       : visit.detail.valid ? "completed"
+                                            : "failed";
+  line += fmt::format(",{},{:.17g}", io::csv_quoted(status), visit.candidate->violation);
+  auto add = [&](double value, bool known) { line += known ? fmt::format(",{:.17g}", value) : ","; };
+  const bool any = visit.detail.replicates > visit.detail.failed;
+  add(visit.score, visit.answered);
+  add(visit.detail.plateau_mean, any);
+  add(visit.detail.plateau_std, any);
+  add(visit.detail.undulation_mean, any);
+  add(visit.detail.first_peak_mean, any);
+  return line + fmt::format(",{},{}\n", visit.detail.replicates, visit.detail.failed);
+}
+
+}  // namespace
+
+json to_json(StudyRun& run) {
+  const Plan& plan = run.plan();
+  const Study& study = run.study();
+  json record = {{"schema", "perfora.optimize/1"},
+                 {"status", solver::status_name(run.status())},
+                 {"reason", run.reason()},
+                 {"seeds", to_json(study.start->design().seeds.effective(0))},
+                 {"results_version", results_version},
+                 {"algorithm", study.keys.algorithm},
+                 {"nlopt_version", nlopt_version_text()},
+                 {"target", study.target.plateau_stress},
+                 {"plateau_window", study.target.window},
+                 {"until", study.until()},
+                 {"replicates", study.keys.replicates},
+                 {"evaluations", run.answers().size()},
+                 {"stop_reason", run.reason()},
+                 {"arms", arms_json(run)}};
+  record["best"] = plan.best ? design_values(study, *plan.best) : json(nullptr);
+  record["best_design"] = plan.best ? json("best.toml") : json(nullptr);
+  record["score"] = plan.best ? number(plan.best_score.value) : json(nullptr);
+  record["plateau_stress"] = plan.best ? plateau_json(plan) : json(nullptr);
+  const Candidate* start = plan.start.candidate;
+  record["start"] = start ? design_values(study, *start) : json(nullptr);
+  record["start_score"] = plan.start.detail.valid ? number(plan.start.score) : json(nullptr);
+  record["finals"] = finals_json(plan.finals);
+  record["performance"] = performance_json(run);
+  return record;
+}
+
+std::string best_toml(StudyRun& run) {
+  const Plan& plan = run.plan();
+  if (!plan.best) return {};
+  const Study& study = run.study();
+  const json plateau = plateau_json(plan);
+  std::string text = fmt::format("# Best design of {} ({}, {} evaluations): {}\n", study.file.filename().string(),
+                                 study.keys.algorithm, run.answers().size(), plan.best->label);
+  text += fmt::format(
+      "# score {:.6g}; plateau {} over strain {:g} to {:g} (mean of {} runs), target {}\n", plan.best_score.value,
+      io::readable(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
+      study.target.window[0], study.target.window[1], plateau.at("count").get<int>(),
+      io::readable(study.target.plateau_stress, io::Dimension::stress));
+  const Finals& finals = plan.finals;
+  if (finals.pairs > 1)
+    text += fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (standard error) over the start: {}\n",
+                        finals.pairs, finals.gain, finals.gain_error,
+                        finals.significant ? "more than two standard errors" : "not more than two standard errors");
+  return text + design_of(study, *plan.best).schema().to_toml();
+}
+
+std::string evaluations_csv(StudyRun& run) {
+  const Study& study = run.study();
+  std::string text = "stage,arm,number";
+  for (const Variable& variable : study.variables) text += "," + variable.key;
+  text += ",status,violation,score,plateau_mean,plateau_std,undulation,first_peak_stress,replicates,failed\n";
+  if (run.plan().start.candidate) text += csv_line(study, "start", "start", 0, run.plan().start);
+  for (const Trace& trace : run.plan().traces)
+    for (std::size_t k = 0; k < trace.visits.size(); ++k)
+      text += csv_line(study, trace.refine ? "refine" : "search", study.arms[static_cast<std::size_t>(trace.arm)].name,
+                       k + 1, trace.visits[k]);
+  return text;
+}
+
+void write_results(StudyRun& run) {
+  const auto& folder = run.options().folder;
+  const std::string best = best_toml(run);
+  if (!best.empty()) io::write_file(folder / "best.toml", best);
+  io::write_file(folder / "evaluations.csv", evaluations_csv(run));
+  io::write_file(folder / "result.json", to_json(run).dump(2) + "\n");
+}
+
+}  // namespace perfora::optimize

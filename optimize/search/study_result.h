@@ -1,0 +1,26 @@
+// What is here: what a study leaves behind: the JSON record, best.toml, evaluations.csv. What is not: pictures
+// (report/), the search.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "optimize/search/study_run.h"
+
+namespace perfora::optimize {
+
+/// schema "perfora.optimize/1". SI; null for what is not known. All but `performance` depends on the study only, never
+/// on workers, stops or kills.
+nlohmann::json to_json(StudyRun& run);
+
+/// The best design as a design file, with what was found as comments. Empty without a best design.
+std::string best_toml(StudyRun& run);
+
+/// One line a point of the search, in the order of arms and points: stage, arm, number, values, score and what it is
+/// made of; empty where not known.
+std::string evaluations_csv(StudyRun& run);
+
+/// Writes result.json, best.toml (where there is one) and evaluations.csv into the study's folder, each whole.
+void write_results(StudyRun& run);
+
+}  // namespace perfora::optimize

@@ -1,0 +1,69 @@
+// What is here: making and changing the sliced rows of near pairs.
+#include "solver/kernels/contact_rows.h"
+
+namespace perfora::solver {
+namespace {
+
+std::size_t at(std::int64_t k) {
+  return static_cast<std::size_t>(k);
+}
+
+}  // namespace
+
+void ContactRows::build(const NearPairs& pairs, const DiscState& discs, const ContactLaw& law) {
+  const std::int32_t n = discs.size();
+  std::vector<std::int32_t> length(at(n));
+  for (std::int32_t i = 0; i < n; ++i) length[at(i)] = pairs.row_end(i) - pairs.row_begin(i);
+  rows_.build(length);
+  place_.resize(pairs.slots().size());
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t k = 0; k < length[at(i)]; ++k)
+      place_[at(pairs.row_begin(i) + k)] = static_cast<std::int32_t>(rows_.place(i, k));
+  const std::size_t groups = rows_.groups(), places = groups * at(lanes_);
+  neighbour_.resize(places);
+  for (auto* field : {&touch_, &damping_, &shear_, &viscous_force_}) field->assign(places, 0.0f);
+  active_.assign(groups, 0);
+  slice_active_.assign(rows_.slices(), 0);
+  rows_.for_each_place([&](std::int64_t place, std::int32_t disc) { neighbour_[at(place)] = record_offset(disc); });
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t pair = pairs.row_begin(i); pair < pairs.row_end(i); ++pair)
+      if (pairs.slots()[at(pair)].bonded == 0) open(pairs, i, pair, discs, law);
+}
+
+void ContactRows::open(const NearPairs& pairs, std::int32_t i, std::int32_t pair, const DiscState& discs,
+                       const ContactLaw& law) {
+  const NearSlot& slot = pairs.slots()[at(pair)];
+  const std::size_t place = at(place_[at(pair)]), j = at(slot.neighbour);
+  const double effective_mass = discs.mass[at(i)] * discs.mass[j] / (discs.mass[at(i)] + discs.mass[j]);
+  neighbour_[place] = record_offset(slot.neighbour);
+  touch_[place] = static_cast<float>(slot.touch);
+  damping_[place] = static_cast<float>(contact_damping(law, effective_mass));
+  shear_[place] = static_cast<float>(slot.history.shear);
+  viscous_force_[place] = static_cast<float>(slot.history.viscous_force);
+  std::uint8_t& active = active_[place / at(lanes_)];
+  if (active == 0) ++slice_active_[at(rows_.slice_of(i))];
+  active = 1;
+}
+
+void ContactRows::collect(NearPairs& pairs) const {
+  for (std::size_t pair = 0; pair < place_.size(); ++pair) {
+    NearSlot& slot = pairs.slots()[pair];
+    if (slot.bonded != 0) continue;
+    const std::size_t place = at(place_[pair]);
+    slot.touch = static_cast<double>(touch_[place]);
+    slot.history = {static_cast<double>(shear_[place]), static_cast<double>(viscous_force_[place])};
+  }
+}
+
+void ContactRows::aim(ContactSweep& sweep, std::int32_t chunk) {
+  sweep.neighbour = neighbour_.data();
+  sweep.touch = touch_.data();
+  sweep.damping = damping_.data();
+  sweep.shear = shear_.data();
+  sweep.viscous_force = viscous_force_.data();
+  sweep.active = active_.data();
+  sweep.slice_active = slice_active_.data();
+  rows_.aim(sweep, chunk);
+}
+
+}  // namespace perfora::solver

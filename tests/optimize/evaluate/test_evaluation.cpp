@@ -1,0 +1,107 @@
+// What is here: the whole way of one small design: packing files, run files, resume. Expected: agreement between ways
+// that must agree bit for bit.
+#include "optimize/evaluate/evaluation.h"
+
+#include <gmock/gmock.h>
+
+#include "geometry/packing_file.h"
+#include "io/hdf5.h"
+#include "optimize/evaluate/packing_cache.h"
+#include "tests/optimize/evaluate/design_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Evaluating : public ::testing::Test {
+ protected:
+  DesignFile design(const std::vector<std::string>& overrides = {}) const {
+    return DesignFile(folder_.file("design.toml", small_design), overrides);
+  }
+  /// Everything but what depends on the clock.
+  static nlohmann::json comparable(const Evaluation& evaluation) {
+    auto record = to_json(evaluation, true);
+    record.erase("performance");
+    return record;
+  }
+  DesignFolder folder_;
+};
+
+TEST_F(Evaluating, GivesAResultThatIsWhole) {
+  const Evaluation evaluation = evaluate_design(design(), {}, 0);
+  EXPECT_EQ(evaluation.status, solver::RunStatus::completed);
+  EXPECT_EQ(evaluation.pack.perforations, 1);
+  EXPECT_NEAR(evaluation.pack.thinnest_wall.thickness, 0.006, 1e-12);
+  EXPECT_NEAR(evaluation.summary.final_strain, 0.01, 1e-9);
+  EXPECT_GT(evaluation.pack.bonds_per_disc, 10.0);
+  EXPECT_EQ(evaluation.curve.strain_yy.size(), 21u);  // 0.01 in rows of 5e-4, and the start
+}
+
+TEST_F(Evaluating, APackingFromItsFileGivesTheSameBits) {
+  const DesignFile file = design();
+  const PackedDesign packed = pack_design(file, {}, 0);
+  const auto record = pack_record(packed, file.design().seeds.effective(0), {});
+  write_pack_file(folder_ / "p.h5", file, packed, record, "perfora pack");
+  const Evaluation made = evaluate_design(file, {}, 0);
+  EvaluateOptions options;
+  options.packing_file = folder_ / "p.h5";
+  EXPECT_EQ(comparable(evaluate_design(file, options, 0)), comparable(made));
+  EXPECT_EQ(record["bonds_per_disc"], to_json(made, false)["bonds_per_disc"]);
+  EXPECT_EQ(io::Hdf5Reader(folder_ / "p.h5").attribute_text("/", "format"), "perfora.pack/1");
+}
+
+TEST_F(Evaluating, AnotherPackingIsRefusedWithBothValues) {
+  const DesignFile file = design();
+  const PackedDesign packed = pack_design(file, {}, 0);
+  write_pack_file(folder_ / "p.h5", file, packed, pack_record(packed, {}, {}), "");
+  const DesignFile other = design({"seeds.packing=77"});
+  const std::string text = complaint([&] { require_packing_file(other, folder_ / "p.h5", 0); });
+  EXPECT_THAT(text, HasSubstr("77"));
+  EXPECT_THAT(text, HasSubstr(std::to_string(file.design().seeds.effective(0).packing)));
+}
+
+TEST_F(Evaluating, ReplicatesDifferAndRepeat) {
+  const DesignFile file = design();
+  const auto first = comparable(evaluate_design(file, {}, 0)), second = comparable(evaluate_design(file, {}, 1));
+  EXPECT_NE(first["curve"], second["curve"]);
+  clear_packing_cache();
+  EXPECT_EQ(comparable(evaluate_design(file, {}, 1)), second);
+}
+
+TEST_F(Evaluating, ARequestIsTheSameEvaluation) {
+  const DesignFile file = design();
+  EXPECT_EQ(comparable(evaluate_request(make_request(file, 1), 1)), comparable(evaluate_design(file, {}, 1)));
+}
+
+TEST_F(Evaluating, TheRunFileHoldsItsSummaryAndAFinishedRunIsNotRunAgain) {
+  const DesignFile file = design();
+  EvaluateOptions options;
+  options.run_file = folder_ / "r.h5";
+  const Evaluation made = evaluate_design(file, options, 0);
+  const auto written = std::filesystem::last_write_time(options.run_file);
+  EXPECT_EQ(nlohmann::json::parse(io::Hdf5Reader(options.run_file).text("/summary")), to_json(made, false));
+  options.resume = true;
+  EXPECT_EQ(to_json(evaluate_design(file, options, 0), true), to_json(made, true));
+  EXPECT_EQ(std::filesystem::last_write_time(options.run_file), written);
+  EXPECT_THAT(complaint([&] { static_cast<void>(evaluate_design(design({"loading.rate=41"}), options, 0)); }),
+              HasSubstr("another design"));
+  EXPECT_THAT(complaint([&] { static_cast<void>(evaluate_design(file, options, 1)); }), HasSubstr("another design"));
+}
+
+TEST_F(Evaluating, AWallTimeLimitStopsAndResumeGivesTheSameBits) {
+  const DesignFile file = design();
+  const Evaluation straight = evaluate_design(file, {}, 0);
+  EvaluateOptions options;
+  options.run_file = folder_ / "r.h5";
+  options.wall_time_limit = 1e-9;
+  const Evaluation stopped = evaluate_design(file, options, 0);
+  EXPECT_EQ(stopped.status, solver::RunStatus::stopped);
+  EXPECT_FALSE(finished_evaluation(file, options.run_file, 0).has_value());
+  options.wall_time_limit = 0.0;
+  options.resume = true;
+  EXPECT_EQ(comparable(evaluate_design(file, options, 0)), comparable(straight));
+}
+
+}  // namespace
+}  // namespace perfora::optimize

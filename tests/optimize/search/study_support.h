@@ -1,0 +1,112 @@
+// What is here: small studies in a folder of their own, and evaluations that are formulas instead of simulations.
+// What is not: tests.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "io/error.h"
+#include "io/schema.h"
+#include "optimize/campaign/executor.h"
+#include "optimize/search/study.h"
+
+namespace perfora::optimize {
+
+class StudyFolder {
+ public:
+  StudyFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "perfora-study-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+    file("design.toml",
+         "[cell]\nwidth = \"50 mm\"\nheight = \"50 mm\"\n[layout]\nfamily = \"square\"\ndiameter = \"16 mm\"\nrows = "
+         "2\ncolumns = 2\n"
+         "[packing]\nmean_diameter = \"0.5044 mm\"\n");
+  }
+  ~StudyFolder() { std::filesystem::remove_all(path_); }
+  StudyFolder(const StudyFolder&) = delete;
+  StudyFolder& operator=(const StudyFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::filesystem::path file(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A study of two variables whose optimum under fake_evaluation() is known: diameter 17.5 mm, jitter 0.4 mm, in every
+/// arm.
+inline std::string study_text(const std::string& study_keys, const std::string& arms = "",
+                              const std::string& constraints = "") {
+  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + study_keys +
+         "\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n\"layout.diameter\" = [\"14 mm\", \"21 "
+         "mm\"]\n\"layout.jitter\" = [0, \"1 mm\"]\n" +
+         (arms.empty() ? "" : "[arms]\n" + arms + "\n") +
+         (constraints.empty() ? "" : "[constraints]\n" + constraints + "\n");
+}
+
+inline double number_in(const std::vector<io::Entry>& entries, const std::string& key) {
+  for (const io::Entry& entry : entries)
+    if (entry.key == key) {
+      if (const auto* real = std::get_if<double>(&entry.value.data)) return *real;
+      if (const auto* whole = std::get_if<std::int64_t>(&entry.value.data)) return static_cast<double>(*whole);
+    }
+  ADD_FAILURE() << "no number " << key;
+  return 0.0;
+}
+
+inline constexpr double best_diameter = 0.0175, best_jitter = 0.0004, fake_target = 0.2e6;
+
+/// Distance from the optimum in units of the bounds, squared.
+inline double fake_distance(double diameter, double jitter) {
+  return std::pow((diameter - best_diameter) / 0.007, 2) + std::pow((jitter - best_jitter) / 0.001, 2);
+}
+
+/// A plateau that misses the target by sqrt(fake_distance) + 0.3 x (number of holes other than 4), relative; replicates
+/// scatter by 1 %.
+inline Evaluation fake_evaluation(const Request& request) {
+  const auto entries = io::parse_toml(request.design_toml, "request");
+  const double diameter = number_in(entries, "layout.diameter"), jitter = number_in(entries, "layout.jitter");
+  const double holes = number_in(entries, "layout.rows") * number_in(entries, "layout.columns");
+  Evaluation evaluation;
+  evaluation.status = solver::RunStatus::completed;
+  evaluation.reason = "reached strain";
+  evaluation.replicate = request.replicate;
+  const double off = std::sqrt(fake_distance(diameter, jitter)) + 0.3 * std::abs(holes - 4.0);
+  evaluation.summary.plateau_stress =
+      fake_target * (1.0 + off) * (1.0 + 0.01 * std::sin(1.0 + 2.0 * request.replicate));
+  evaluation.summary.undulation = 0.1;
+  evaluation.summary.first_peak_stress = 5e5;
+  for (int k = 0; k <= 900; ++k) {
+    evaluation.curve.strain_yy.push_back(0.0005 * k);
+    evaluation.curve.stress_yy.push_back(evaluation.summary.plateau_stress);
+  }
+  return evaluation;
+}
+
+/// The same with a region of diameters in which every run fails: NaN and a status, as a solver gives it.
+inline Evaluation fake_with_failures(const Request& request) {
+  const double diameter = number_in(io::parse_toml(request.design_toml, "request"), "layout.diameter");
+  if (diameter > 0.0185 && diameter < 0.0200) return failed_evaluation(request, "unstable step");
+  return fake_evaluation(request);
+}
+
+inline std::string input_error(const std::function<void()>& code) {
+  try {
+    code();
+  } catch (const io::InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no InputError was thrown";
+  return {};
+}
+
+}  // namespace perfora::optimize
