@@ -38,7 +38,7 @@ int calibrate(const CalibrateFlags& flags) {
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
   progress.finish(fmt::format("{}, {}", result.reason, duration_text(result.seconds)));
   const auto record = optimize::to_json(result);
-  if (result.status != solver::RunStatus::stopped) {
+  if (result.status != results::RunStatus::stopped) {
     if (result.points.size() > fewest_points)
       report::plot_reachable(options.folder / "result.json", options.folder / "reachable.png");
     if (std::filesystem::exists(options.folder / "confirmation.h5"))
@@ -49,7 +49,7 @@ int calibrate(const CalibrateFlags& flags) {
   else
     print_text(summary_text(record));
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
-  if (result.status == solver::RunStatus::stopped)
+  if (result.status == results::RunStatus::stopped)
     io::log_warning("stopped; finished tests are kept; go on with the same command and --resume");
   else
     io::log_info("written: " + options.folder.string());

@@ -57,13 +57,13 @@ nlohmann::json finite(const nlohmann::json& object) {
 
 }  // namespace
 
-ExitCode exit_code_of(solver::RunStatus status) {
+ExitCode exit_code_of(results::RunStatus status) {
   switch (status) {
-    case solver::RunStatus::completed:
+    case results::RunStatus::completed:
       return exit_ok;
-    case solver::RunStatus::stopped:
+    case results::RunStatus::stopped:
       return exit_stopped;
-    case solver::RunStatus::failed:
+    case results::RunStatus::failed:
       return exit_numerical;
   }
   return exit_internal;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/progress.h"
-#include "solver/response.h"
+#include "results/status.h"
 
 namespace perfora::app {
 
@@ -25,7 +25,7 @@ enum ExitCode : int {
 };
 
 /// Exit code of a run or a search that ended with `status`.
-ExitCode exit_code_of(solver::RunStatus status);
+ExitCode exit_code_of(results::RunStatus status);
 
 /// Flags that read the same in every subcommand.
 struct CommonFlags {

@@ -48,19 +48,19 @@ optimize::EvaluateOptions evaluate_options(const EvaluateFlags& flags, ProgressL
 }
 
 /// What is said at the end on standard error.
-void say_how_it_ended(solver::RunStatus status, const std::string& reason, const std::string& where,
+void say_how_it_ended(results::RunStatus status, const std::string& reason, const std::string& where,
                       const std::string& again) {
-  if (status == solver::RunStatus::completed) io::log_info("written: " + where);
-  if (status == solver::RunStatus::stopped)
+  if (status == results::RunStatus::completed) io::log_info("written: " + where);
+  if (status == results::RunStatus::stopped)
     io::log_warning(fmt::format("stopped ({}); the state is kept; go on with {}", reason, again));
-  if (status == solver::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
+  if (status == results::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
 /// What the run itself says against its numbers (docs/theory.md, "Ledger").
 std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluation,
                                            const solver::LoadingOptions& loading) {
   constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;
-  const solver::Summary& s = evaluation.summary;
+  const results::Summary& s = evaluation.summary;
   std::vector<std::string> warnings;
   if (s.max_overlap_in_run > small_overlap)
     warnings.push_back(
@@ -144,7 +144,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
                               duration_text(answer.packing_seconds), duration_text(answer.solution_seconds),
                               answer.response.iterations));
   const auto record = optimize::to_json(answer);
-  const bool reached = answer.status == solver::RunStatus::completed;
+  const bool reached = answer.status == results::RunStatus::completed;
   if (reached) optimize::write_elastic_file(output, design, answer, record, command_line());
   if (flags.common.json)
     print_json(record);

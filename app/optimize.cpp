@@ -61,7 +61,7 @@ bool is_run_of(const fs::path& run_file, const optimize::DesignFile& design) {
 
 /// The best design once more (replicate 0) with its frames: best.h5, its CSV and XDMF. The search itself keeps coarse
 /// curves only.
-solver::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) {
+results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) {
   const optimize::DesignFile design = optimize::design_of(run.study(), *run.plan().best);
   const fs::path run_file = run.options().folder / "best.h5";
   if (fs::exists(run_file) && !is_run_of(run_file, design)) {  // an earlier best, before maxeval was raised
@@ -208,13 +208,13 @@ int optimize_study(const OptimizeFlags& flags) {
   run.run();
   optimize::write_results(run);
   auto status = run.status();
-  if (status == solver::RunStatus::completed && !flags.no_run_file) {
+  if (status == results::RunStatus::completed && !flags.no_run_file) {
     const auto best = run_best(flags, run);
-    if (best == solver::RunStatus::stopped) status = best;
+    if (best == results::RunStatus::stopped) status = best;
   }
   if (run.plan().best) draw(run);
   print_result(flags, run);
-  if (status == solver::RunStatus::stopped)
+  if (status == results::RunStatus::stopped)
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
   else

@@ -5,8 +5,8 @@
 
 #include "io/error.h"
 #include "io/journal.h"
-#include "report/run_result.h"
 #include "report/xdmf.h"
+#include "results/run_file.h"
 
 namespace perfora::app {
 
@@ -37,8 +37,8 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
 }
 
 void write_beside(const fs::path& run_file) {
-  const report::RunResult run = report::read_run(run_file);
-  io::write_file(fs::path(run_file).replace_extension(".csv"), report::history_csv(run));
+  const results::RunResult run = results::read_run(run_file);
+  io::write_file(fs::path(run_file).replace_extension(".csv"), results::history_csv(run));
   report::write_xdmf(run_file, fs::path(run_file).replace_extension(".xdmf"));
 }
 

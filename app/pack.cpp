@@ -35,7 +35,7 @@ int pack(const PackFlags& flags) {
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::PackedDesign packed = optimize::pack_design(design, options, 0);
-  solver::Performance performance;
+  results::Performance performance;
   performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   performance.threads = options.threads;
   performance.peak_memory = io::peak_memory_bytes();

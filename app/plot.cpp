@@ -32,7 +32,7 @@ std::string format_of(const fs::path& file) {
 
 /// The keys of a design that are not at their defaults, without seeds and what is written: the same for runs that only
 /// luck tells apart, also where a program that knew fewer keys made one of them.
-std::string design_of(const report::RunResult& run) {
+std::string design_of(const results::RunResult& run) {
   try {
     optimize::DesignFile design = optimize::DesignFile::from_toml(run.config, run.path.string());
     design.design().seeds = {};
@@ -55,7 +55,7 @@ std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
                            "", "give run files of perfora evaluate");
     const bool twice = std::count_if(flags.inputs.begin(), flags.inputs.end(),
                                      [&](const fs::path& other) { return other.stem() == file.stem(); }) > 1;
-    report::RunResult run = report::read_run(file);
+    results::RunResult run = results::read_run(file);
     std::string design = design_of(run);
     std::string label =
         twice ? (fs::absolute(file).parent_path().filename() / file.stem()).string() : file.stem().string();

@@ -129,7 +129,7 @@ bool draw_collapse(const optimize::SweepRun& run) {
   for (const SweepCase& one : run.sweep().cases) {
     if (!run.known(one, 0)) continue;
     const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0).key());
-    if (fs::exists(file)) rows.push_back({one.label, report::read_run(file)});
+    if (fs::exists(file)) rows.push_back({one.label, results::read_run(file)});
   }
   report::PlotOptions options;
   options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 0)";
@@ -161,7 +161,7 @@ int sweep_designs(const SweepFlags& flags) {
     print_json(record);
   else
     print_text(summary_text(record));
-  if (run.status() == solver::RunStatus::stopped)
+  if (run.status() == results::RunStatus::stopped)
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
   else

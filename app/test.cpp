@@ -52,7 +52,7 @@ int test(const TestFlags& flags) {
     print_json(record);
   else
     print_text(summary_text(record));
-  if (tests.status == solver::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);
+  if (tests.status == results::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);
   if (whole) io::log_info("written: " + output.string() + ", " + picture.string());
   return exit_code_of(tests.status);
 }

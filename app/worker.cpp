@@ -21,7 +21,7 @@ int work(int threads) {
     print_text(optimize::to_json(evaluation, true).dump() + "\n");
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.
-    if (evaluation.status == solver::RunStatus::stopped) return exit_stopped;
+    if (evaluation.status == results::RunStatus::stopped) return exit_stopped;
   }
   return exit_ok;
 }

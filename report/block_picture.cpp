@@ -123,7 +123,8 @@ double BlockPicture::extent_x() const {
   return h_xx + 2.0 * beyond + std::abs(h_xy);
 }
 
-BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped, const Edges& edges) {
+BlockPicture picture_of_frame(const results::Frame& frame, const geometry::Packing& clipped,
+                              const results::Edges& edges) {
   BlockPicture picture;
   picture.edges = edges;
   picture.h_xx = frame.info.h_xx;

@@ -9,7 +9,7 @@
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
 #include "report/canvas.h"
-#include "report/run_result.h"
+#include "results/run_file.h"
 
 namespace perfora::report {
 
@@ -20,7 +20,7 @@ inline constexpr double bonded_growth = 0.28;
 /// Discs in a block with edges (h_xx, 0) and (h_xy, h_yy), m; equally long columns.
 struct BlockPicture {
   double h_xx = 0.0, h_xy = 0.0, h_yy = 0.0;
-  Edges edges;
+  results::Edges edges;
   double beyond = 0.0;  ///< what is shown to either side of the block, m: where its sides are free
   std::vector<double> x, y, radius;
   std::vector<Colour> colour;
@@ -34,7 +34,8 @@ struct BlockPicture {
 /// The colour of every disc by its fragment: concrete for fragment 0, a colour that no touching fragment has for others
 /// of at least `dust` discs, one grey for what is smaller; lost bonds turn a disc dark red.
 /// With free sides the picture is wider by what has bulged or flown off, up to half a width on either side.
-BlockPicture picture_of_frame(const Frame& frame, const geometry::Packing& clipped, const Edges& edges = {});
+BlockPicture picture_of_frame(const results::Frame& frame, const geometry::Packing& clipped,
+                              const results::Edges& edges = {});
 /// Discs by size, light (small) to dark (large).
 BlockPicture picture_of_packing(const geometry::Packing& packing);
 Colour size_colour(double share);  ///< share 0 (smallest) to 1
@@ -45,7 +46,7 @@ inline constexpr int dust_colour = -2;
 
 /// One colour number (0 to colours - 1) a fragment, so that fragments with discs closer than 1.3 times the sum of their
 /// radii differ where that is possible; main_colour for fragment 0, dust_colour for crumbs. Cost: linear in the discs.
-std::vector<int> colour_fragments(const Frame& frame, std::span<const double> radius, int colours);
+std::vector<int> colour_fragments(const results::Frame& frame, std::span<const double> radius, int colours);
 
 /// The largest box of the block's shape inside `room`, centred in x and at the given share of the free height (0 top, 1
 /// bottom).

@@ -17,7 +17,7 @@ constexpr int dust = 6;
 constexpr double neighbour_reach = 1.3;
 
 /// Pairs (a < b) of fragments with neighbouring discs, each once. No periodic images: only the picture counts.
-std::vector<std::pair<std::int32_t, std::int32_t>> touching_fragments(const Frame& frame,
+std::vector<std::pair<std::int32_t, std::int32_t>> touching_fragments(const results::Frame& frame,
                                                                       std::span<const double> radius) {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   const std::size_t discs = radius.size();
@@ -69,7 +69,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> touching_fragments(const Fram
 
 }  // namespace
 
-std::vector<int> colour_fragments(const Frame& frame, std::span<const double> radius, int colours) {
+std::vector<int> colour_fragments(const results::Frame& frame, std::span<const double> radius, int colours) {
   std::int32_t last = 0;
   for (std::int32_t fragment : frame.fragment) last = std::max(last, fragment);
   const auto count = static_cast<std::size_t>(last) + 1;

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "report/run_result.h"
+#include "results/elastic_file.h"
+#include "results/pack_file.h"
+#include "results/run_file.h"
 
 namespace perfora::report {
 
@@ -19,17 +21,17 @@ struct PlotOptions {
 
 /// What plot_run shows: a run and up to three of its frames (intact, at the first peak, last).
 struct RunPicture {
-  const RunResult* run = nullptr;
+  const results::RunResult* run = nullptr;
   struct Snapshot {
     std::string caption;
-    Frame frame;
+    results::Frame frame;
   };
   std::vector<Snapshot> snapshots;
 };
 
 /// The frames a picture shows: the first, the one nearest to the first peak (strain from the summary), the last; fewer
 /// where they coincide.
-std::vector<std::size_t> snapshot_frames(const RunResult& run);
+std::vector<std::size_t> snapshot_frames(const results::RunResult& run);
 
 /// R.h5 -> picture: stress over strain with first peak, plateau and what else the summary knows; the block at up to
 /// three strains with its fragments. Throws io::InputError for a bad R.h5 or an extension other than .png, .svg, .pdf.
@@ -39,13 +41,13 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
 /// One run of a picture of several.
 struct LabelledRun {
   std::string label;
-  RunResult run;
+  results::RunResult run;
   std::string design = {};  ///< runs of one design (other seeds) share it; plot_comparison only
 };
 
 /// How runs collapse: a row a run (up to eight of its frames side by side, all to one scale within the row, with strain
 /// and stress), under its label, first peak, plateau and the strain from which it only rises. Throws io::InputError as
-/// read_frame does, and for an extension other than .png, .svg, .pdf.
+/// results::read_frame does, and for an extension other than .png, .svg, .pdf.
 void plot_collapse(const std::vector<LabelledRun>& rows, const std::filesystem::path& out, const PlotOptions& options);
 
 /// Runs side by side: stress over strain, linear up to the highest first peak and logarithmic (smoothed), and a table
@@ -58,7 +60,7 @@ void plot_comparison(const std::vector<LabelledRun>& runs, const std::filesystem
 /// quality.
 void plot_packing(const std::filesystem::path& packing_file, const std::filesystem::path& out,
                   const PlotOptions& options = {});
-void draw_packing(const PackResult& pack, const std::filesystem::path& out, const PlotOptions& options = {});
+void draw_packing(const results::PackResult& pack, const std::filesystem::path& out, const PlotOptions& options = {});
 
 /// T.h5 -> picture: stress over strain of every test and replicate, the cracked sample of each test, the material's
 /// numbers.
@@ -75,6 +77,7 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
 /// discs.
 void plot_elastic(const std::filesystem::path& elastic_file, const std::filesystem::path& out,
                   const PlotOptions& options = {});
-void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out, const PlotOptions& options = {});
+void draw_elastic(const results::ElasticResult& elastic, const std::filesystem::path& out,
+                  const PlotOptions& options = {});
 
 }  // namespace perfora::report

@@ -21,7 +21,7 @@ constexpr double caption_height = 62.0;  ///< below them
 constexpr std::size_t most_blocks = 8;   ///< in a row
 
 /// Frames that are shown: all of them, or as many as fit, evenly, with the first, the peak's and the last among them.
-std::vector<std::size_t> shown_frames(const RunResult& run) {
+std::vector<std::size_t> shown_frames(const results::RunResult& run) {
   std::vector<std::size_t> chosen;
   if (run.frames.size() <= most_blocks) {
     for (std::size_t k = 0; k < run.frames.size(); ++k) chosen.push_back(k);
@@ -41,9 +41,9 @@ std::vector<std::size_t> shown_frames(const RunResult& run) {
 }
 
 /// Mean stress over 0.5 % strain around a frame, kPa; the peak's frame shows the fall, not the peak.
-double stress_around(const RunResult& run, double strain) {
+double stress_around(const results::RunResult& run, double strain) {
   constexpr double half = 0.0025;
-  const auto &strains = run.column("strain_yy"), &stresses = run.column("stress_yy");
+  const auto &strains = run.history.strain_yy, &stresses = run.history.stress_yy;
   double sum = 0.0, count = 0.0;
   for (std::size_t k = 0; k < strains.size(); ++k)
     if (std::abs(strains[k] - strain) <= half) sum += stresses[k], count += 1.0;
@@ -53,7 +53,7 @@ double stress_around(const RunResult& run, double strain) {
 std::string row_text(const LabelledRun& row) {
   std::string text = row.label;
   const auto add = [&](const char* name, const char* key, double scale, const char* unit) {
-    if (const auto value = summary_number(row.run.summary, key))
+    if (const auto value = results::summary_number(row.run.summary, key))
       text += fmt::format("{}{} {}{}", text.empty() ? "" : "   ", name, short_number(*value * scale), unit);
   };
   add("first peak", "first_peak_stress", 1e-3, " kPa");
@@ -74,8 +74,8 @@ void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
   canvas.text(page_margin, top + 12.0, canvas.fit(row_text(row), page_width - 2.0 * page_margin, label), label);
   double x = page_margin;
   for (const std::size_t k : shown_frames(row.run)) {
-    const FrameInfo& info = row.run.frames[k];
-    const BlockPicture picture = picture_of_frame(read_frame(row.run, k), row.run.clipped, row.run.edges);
+    const results::FrameInfo& info = row.run.frames[k];
+    const BlockPicture picture = picture_of_frame(results::read_frame(row.run, k), row.run.clipped, row.run.edges);
     const double scale = width / std::max(picture.extent_x(), row.run.width);
     draw_block(canvas, {x, base - picture.h_yy * scale, picture.extent_x() * scale, picture.h_yy * scale}, picture);
     canvas.text(x, base + 22.0,

@@ -64,7 +64,7 @@ std::vector<Drawn> drawn_of(const std::vector<LabelledRun>& rows) {
   const std::vector<Colour> colours = colours_of(rows);
   std::vector<Drawn> all;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    Drawn one{&rows[k], colours[k], rows[k].run.column("strain_yy"), rows[k].run.column("stress_yy"), {}};
+    Drawn one{&rows[k], colours[k], rows[k].run.history.strain_yy, rows[k].run.history.stress_yy, {}};
     one.smooth = smoothed_mean({{one.strain, one.stress}});
     for (auto* strains : {&one.strain, &one.smooth.strain})
       for (double& value : *strains) value *= 100.0;
@@ -79,9 +79,9 @@ using Window = std::optional<std::pair<double, double>>;
 
 /// The window of the plateau where all runs have the same.
 Window common_window(const std::vector<LabelledRun>& rows) {
-  const Window window = plateau_window(rows.front().run.summary);
+  const Window window = results::plateau_window(rows.front().run.summary);
   for (const LabelledRun& row : rows)
-    if (plateau_window(row.run.summary) != window) return std::nullopt;
+    if (results::plateau_window(row.run.summary) != window) return std::nullopt;
   return window;
 }
 
@@ -91,7 +91,7 @@ std::string window_text(const std::vector<LabelledRun>& rows, const Window& wind
     return fmt::format("; shaded: the plateau window, {} to {} %", short_number(100.0 * window->first),
                        short_number(100.0 * window->second));
   const bool any =
-      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return plateau_window(row.run.summary); });
+      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return results::plateau_window(row.run.summary); });
   return any ? "; the plateau windows of these runs differ" : "";
 }
 
@@ -99,7 +99,7 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& wi
   double end = 0.0, peak = 0.0, highest = 0.0, lowest = INFINITY;
   for (const Drawn& one : all) {
     if (!one.strain.empty()) end = std::max(end, one.strain.back());
-    const auto first_peak = summary_number(one.row->run.summary, "first_peak_stress");
+    const auto first_peak = results::summary_number(one.row->run.summary, "first_peak_stress");
     const double own = one.stress.empty() ? 0.0 : *std::max_element(one.stress.begin(), one.stress.end());
     peak = std::max(peak, first_peak ? 1e-3 * *first_peak : own);
     highest = std::max(highest, own);
@@ -132,8 +132,8 @@ void draw_first_peaks(Canvas& canvas, const std::vector<Drawn>& all, const Box& 
   constexpr double shown = 4.0;  // times the largest strain of a first peak
   double strain = 0.0, stress = 0.0;
   for (const Drawn& one : all) {
-    const auto at = summary_number(one.row->run.summary, "first_peak_strain");
-    const auto peak = summary_number(one.row->run.summary, "first_peak_stress");
+    const auto at = results::summary_number(one.row->run.summary, "first_peak_strain");
+    const auto peak = results::summary_number(one.row->run.summary, "first_peak_stress");
     if (!at || !peak) continue;
     strain = std::max(strain, 100.0 * *at);
     stress = std::max(stress, 1e-3 * *peak);
@@ -172,7 +172,7 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
                 name);  // names of files differ at their ends
     x = fields_left;
     for (const Field& field : fields) {
-      const auto number = summary_number(one.row->run.summary, field.key);
+      const auto number = results::summary_number(one.row->run.summary, field.key);
       canvas.text(x += field_width, y, number ? short_number(field.scale * *number) : "-", value);
     }
   }

@@ -34,7 +34,7 @@ Colour nearness_colour(double nearness) {
 }
 
 /// First yield strain of the block over that of each disc: 1 where it begins, 0 where nothing would ever yield.
-std::vector<double> nearness_of(const ElasticResult& elastic) {
+std::vector<double> nearness_of(const results::ElasticResult& elastic) {
   if (elastic.disc_strain.empty()) return {};
   const double first = *std::min_element(elastic.disc_strain.begin(), elastic.disc_strain.end());
   std::vector<double> nearness;
@@ -42,7 +42,7 @@ std::vector<double> nearness_of(const ElasticResult& elastic) {
   return nearness;
 }
 
-BlockPicture picture_of(const ElasticResult& elastic, const std::vector<double>& nearness) {
+BlockPicture picture_of(const results::ElasticResult& elastic, const std::vector<double>& nearness) {
   BlockPicture picture = picture_of_packing(elastic.clipped);
   picture.growth.assign(nearness.size(), bonded_growth);
   std::transform(nearness.begin(), nearness.end(), picture.colour.begin(), nearness_colour);
@@ -56,8 +56,8 @@ std::string stress_text(double pascal) {
   return short_number(unit.scale * pascal, 4) + " " + unit.name;
 }
 
-std::vector<Fact> yield_facts(const ElasticResult& elastic) {
-  const auto number = [&](const char* key) { return summary_number(elastic.summary, key); };
+std::vector<Fact> yield_facts(const results::ElasticResult& elastic) {
+  const auto number = [&](const char* key) { return results::summary_number(elastic.summary, key); };
   std::vector<Fact> facts;
   if (const auto strain = number("first_yield_strain"))
     facts.emplace_back("first yield at strain", short_number(*strain * 100.0) + " %");
@@ -70,8 +70,8 @@ std::vector<Fact> yield_facts(const ElasticResult& elastic) {
   return facts;
 }
 
-std::vector<Fact> modulus_facts(const ElasticResult& elastic) {
-  const auto number = [&](const char* key) { return summary_number(elastic.summary, key); };
+std::vector<Fact> modulus_facts(const results::ElasticResult& elastic) {
+  const auto number = [&](const char* key) { return results::summary_number(elastic.summary, key); };
   std::vector<Fact> facts;
   const auto stress = [&](const char* label, const char* key) {
     if (const auto value = number(key)) facts.emplace_back(label, stress_text(*value));
@@ -131,7 +131,7 @@ void draw_colour_bar(Canvas& canvas, const std::vector<double>& nearness, const 
 }
 
 /// Rings around the first bonds: thick for the first, thin for those that follow within two per cent.
-void mark_first_bonds(Canvas& canvas, const Box& box, const ElasticResult& elastic) {
+void mark_first_bonds(Canvas& canvas, const Box& box, const results::ElasticResult& elastic) {
   const double scale = box.width / elastic.clipped.width;
   cairo_t* context = canvas.context();
   const auto ring = [&](std::size_t k, double radius, double thickness) {
@@ -148,7 +148,7 @@ void mark_first_bonds(Canvas& canvas, const Box& box, const ElasticResult& elast
   if (!elastic.first_bonds.x.empty()) ring(0, 16.0, 3.5);
 }
 
-void draw_title(Canvas& canvas, const ElasticResult& elastic, const PlotOptions& options) {
+void draw_title(Canvas& canvas, const results::ElasticResult& elastic, const PlotOptions& options) {
   const std::string title = options.title.empty() ? elastic.path.stem().string() : options.title;
   const TextStyle style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, style), style);
@@ -160,7 +160,7 @@ void draw_title(Canvas& canvas, const ElasticResult& elastic, const PlotOptions&
 
 }  // namespace
 
-void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out, const PlotOptions& options) {
+void draw_elastic(const results::ElasticResult& elastic, const std::filesystem::path& out, const PlotOptions& options) {
   Canvas canvas(out, page_width, page_height);
   draw_title(canvas, elastic, options);
   const std::vector<double> nearness = nearness_of(elastic);
@@ -184,7 +184,7 @@ void draw_elastic(const ElasticResult& elastic, const std::filesystem::path& out
 
 void plot_elastic(const std::filesystem::path& elastic_file, const std::filesystem::path& out,
                   const PlotOptions& options) {
-  draw_elastic(read_elastic(elastic_file), out, options);
+  draw_elastic(results::read_elastic(elastic_file), out, options);
 }
 
 }  // namespace perfora::report

@@ -53,20 +53,20 @@ constexpr Number numbers[] = {
     {"fracture_energy", "fracture energy", 1.0, "J/m2"},
 };
 
-void draw_curves(Canvas& canvas, const Box& box, const MaterialResult& result, const std::string& name) {
+void draw_curves(Canvas& canvas, const Box& box, const results::MaterialResult& result, const std::string& name) {
   double strain = 0.0, stress = 0.0;
-  for (const MaterialTest& test : result.tests) {
+  for (const results::MaterialTest& test : result.tests) {
     if (test.name != name) continue;
-    for (const double value : test.strain) strain = std::max(strain, 100.0 * value);
-    for (const double value : test.stress) stress = std::max(stress, 1e-6 * value);
+    for (const double value : test.curve.strain) strain = std::max(strain, 100.0 * value);
+    for (const double value : test.curve.stress) stress = std::max(stress, 1e-6 * value);
   }
   constexpr double headroom = 1.12;
   Chart chart(canvas, box, {0.0, std::max(strain, 1e-6), name == "shear" ? "shear strain (%)" : "strain (%)"},
               {0.0, std::max(headroom * stress, 1e-9), "stress (MPa)"});
   chart.draw_axes();
-  for (const MaterialTest& test : result.tests) {
+  for (const results::MaterialTest& test : result.tests) {
     if (test.name != name) continue;
-    std::vector<double> x = test.strain, y = test.stress;
+    std::vector<double> x = test.curve.strain, y = test.curve.stress;
     for (double& value : x) value *= 100.0;
     for (double& value : y) value *= 1e-6;
     const bool drawn_below = test.frame.has_value();
@@ -75,8 +75,8 @@ void draw_curves(Canvas& canvas, const Box& box, const MaterialResult& result, c
   }
 }
 
-void draw_sample(Canvas& canvas, const Box& room, const MaterialResult& result, const std::string& name) {
-  for (const MaterialTest& test : result.tests) {
+void draw_sample(Canvas& canvas, const Box& room, const results::MaterialResult& result, const std::string& name) {
+  for (const results::MaterialTest& test : result.tests) {
     if (test.name != name || !test.frame) continue;
     const BlockPicture picture = picture_of_frame(*test.frame, result.sample);
     const Box box = fit_block(picture, room, 0.0);
@@ -86,7 +86,7 @@ void draw_sample(Canvas& canvas, const Box& room, const MaterialResult& result, 
   }
 }
 
-void draw_numbers(Canvas& canvas, const MaterialResult& result) {
+void draw_numbers(Canvas& canvas, const results::MaterialResult& result) {
   const auto material = result.summary.find("material");
   if (material == result.summary.end()) return;
   constexpr int columns_of_numbers = 4, rows = 3;
@@ -113,13 +113,13 @@ void draw_numbers(Canvas& canvas, const MaterialResult& result) {
 
 void plot_material_tests(const std::filesystem::path& test_file, const std::filesystem::path& out,
                          const PlotOptions& options) {
-  const MaterialResult result = read_material_tests(test_file);
+  const results::MaterialResult result = results::read_material_tests(test_file);
   Canvas canvas(out, page_width, page_height);
   const std::string title = options.title.empty() ? result.path.stem().string() : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, title_style), title_style);
   int replicates = 0;
-  for (const MaterialTest& test : result.tests) replicates = std::max(replicates, test.replicate + 1);
+  for (const results::MaterialTest& test : result.tests) replicates = std::max(replicates, test.replicate + 1);
   canvas.text(page_margin, 88.0,
               fmt::format("Solid samples of {} x {} mm, {} discs of {} mm mean diameter; {}",
                           short_number(result.sample.width * 1e3), short_number(result.sample.height * 1e3),
@@ -132,7 +132,7 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
   std::vector<std::pair<const char*, const char*>> shown;
   for (const auto& column : columns)
     if (std::any_of(result.tests.begin(), result.tests.end(),
-                    [&](const MaterialTest& test) { return test.name == column.first; }))
+                    [&](const results::MaterialTest& test) { return test.name == column.first; }))
       shown.push_back(column);
   const double width = (page_width - 2.0 * page_margin) / static_cast<double>(columns.size());
   for (std::size_t k = 0; k < shown.size(); ++k) {

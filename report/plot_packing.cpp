@@ -21,9 +21,9 @@ constexpr int size_bins = 24;
 
 using Fact = std::pair<std::string, std::string>;
 
-std::vector<Fact> facts_of(const PackResult& pack) {
+std::vector<Fact> facts_of(const results::PackResult& pack) {
   const geometry::PackingQuality& quality = pack.periodic.quality;
-  const auto number = [&](const char* key) { return summary_number(pack.summary, key); };
+  const auto number = [&](const char* key) { return results::summary_number(pack.summary, key); };
   std::vector<Fact> facts = {
       {"discs", with_thousands(pack.clipped.size()) + " of " + with_thousands(pack.periodic.size()) + " packed"},
       {"mean diameter", short_number(pack.clipped.mean_diameter() * 1e3, 4) + " mm"},
@@ -84,7 +84,7 @@ void draw_sizes(Canvas& canvas, const geometry::Packing& packing, const Box& box
 
 }  // namespace
 
-void draw_packing(const PackResult& pack, const std::filesystem::path& out, const PlotOptions& options) {
+void draw_packing(const results::PackResult& pack, const std::filesystem::path& out, const PlotOptions& options) {
   Canvas canvas(out, page_width, page_height);
   const std::string title = options.title.empty() ? pack.path.stem().string() : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
@@ -110,7 +110,7 @@ void draw_packing(const PackResult& pack, const std::filesystem::path& out, cons
 
 void plot_packing(const std::filesystem::path& packing_file, const std::filesystem::path& out,
                   const PlotOptions& options) {
-  draw_packing(read_pack(packing_file), out, options);
+  draw_packing(results::read_pack(packing_file), out, options);
 }
 
 }  // namespace perfora::report

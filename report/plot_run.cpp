@@ -21,46 +21,45 @@ constexpr double middle = 850.0;  ///< where the blocks begin
 constexpr double caption_height = 36.0;
 constexpr double scale_height = 30.0;
 
-std::string describe_edges(const Edges& edges) {
+std::string describe_edges(const results::Edges& edges) {
   if (edges.walls) return edges.platens ? " between platens and side walls" : " between side walls";
   if (edges.free) return edges.platens ? " between platens, free sides" : " with free sides";
   return edges.platens ? " between platens" : "";
 }
 
-std::string describe_block(const RunResult& run) {
+std::string describe_block(const results::RunResult& run) {
   const std::size_t holes = run.layout.perforations.size();
   return fmt::format("{} x {} mm block{}, {} perforation{}, {} discs of {} mm mean diameter, {} bonds",
                      short_number(run.width * 1e3), short_number(run.height * 1e3), describe_edges(run.edges), holes,
-                     holes == 1 ? "" : "s",
-                     with_thousands(run.clipped.size()), short_number(run.mean_diameter * 1e3),
+                     holes == 1 ? "" : "s", with_thousands(run.clipped.size()), short_number(run.mean_diameter * 1e3),
                      with_thousands(static_cast<std::int64_t>(run.bonds.size())));
 }
 
-std::string describe_damage(const RunResult& run) {
+std::string describe_damage(const results::RunResult& run) {
   std::string text;
-  if (const auto broken = summary_number(run.summary, "broken_bonds"))
+  if (const auto broken = results::summary_number(run.summary, "broken_bonds"))
     text += with_thousands(static_cast<std::int64_t>(*broken)) + " bonds broken";
-  if (const auto fragments = summary_number(run.summary, "fragments"))
+  if (const auto fragments = results::summary_number(run.summary, "fragments"))
     text +=
         fmt::format("{}{} fragments", text.empty() ? "" : ", ", with_thousands(static_cast<std::int64_t>(*fragments)));
   return text;
 }
 
-CurveMarks marks_of(const RunResult& run, const PlotOptions& options) {
+CurveMarks marks_of(const results::RunResult& run, const PlotOptions& options) {
   CurveMarks marks;
-  marks.peak_strain = summary_number(run.summary, "first_peak_strain");
-  marks.peak_stress = summary_number(run.summary, "first_peak_stress");
-  marks.plateau_stress = summary_number(run.summary, "plateau_stress");
-  if (const auto window = plateau_window(run.summary)) {
+  marks.peak_strain = results::summary_number(run.summary, "first_peak_strain");
+  marks.peak_stress = results::summary_number(run.summary, "first_peak_stress");
+  marks.plateau_stress = results::summary_number(run.summary, "plateau_stress");
+  if (const auto window = results::plateau_window(run.summary)) {
     marks.plateau_start = window->first;
     marks.plateau_end = window->second;
   }
-  marks.densification_strain = summary_number(run.summary, "densification_strain");
+  marks.densification_strain = results::summary_number(run.summary, "densification_strain");
   marks.target_stress = options.target_stress;
   return marks;
 }
 
-void draw_heading(Canvas& canvas, const RunResult& run, const PlotOptions& options) {
+void draw_heading(Canvas& canvas, const results::RunResult& run, const PlotOptions& options) {
   const std::string title = options.title.empty() ? run.path.stem().string() : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
   const TextStyle line_style{.size = 17.0, .colour = palette::soft_ink};
@@ -90,7 +89,7 @@ void draw_badges(Canvas& canvas, const Chart& chart, const std::vector<RunPictur
   }
 }
 
-void draw_snapshot(Canvas& canvas, const RunResult& run, const RunPicture::Snapshot& snapshot, char letter,
+void draw_snapshot(Canvas& canvas, const results::RunResult& run, const RunPicture::Snapshot& snapshot, char letter,
                    const Box& room) {
   const BlockPicture picture = picture_of_frame(snapshot.frame, run.clipped, run.edges);
   const Box box = fit_block(
@@ -111,7 +110,7 @@ void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
                 {.size = 18.0, .colour = palette::soft_ink, .align = Align::centre});
     return;
   }
-  const RunResult& run = *picture.run;
+  const results::RunResult& run = *picture.run;
   const Box whole{middle, top, width, page_height - top - 50.0};
   if (count == 1) return draw_snapshot(canvas, run, picture.snapshots[0], 'A', whole);
   const double half = (width - gap) / 2.0;
@@ -146,16 +145,16 @@ void draw_key(Canvas& canvas) {
   entry(palette::dust, "crumbs");
 }
 
-std::string caption_of(const FrameInfo& info, const char* what) {
+std::string caption_of(const results::FrameInfo& info, const char* what) {
   return fmt::format("{}, {} % strain", what, short_number(info.strain * 100.0, info.strain < 0.1 ? 2 : 3));
 }
 
 }  // namespace
 
-std::vector<std::size_t> snapshot_frames(const RunResult& run) {
+std::vector<std::size_t> snapshot_frames(const results::RunResult& run) {
   if (run.frames.empty()) return {};
   std::vector<std::size_t> chosen = {0};
-  if (const auto peak = summary_number(run.summary, "first_peak_strain")) {
+  if (const auto peak = results::summary_number(run.summary, "first_peak_strain")) {
     const auto nearest = std::min_element(run.frames.begin(), run.frames.end(), [&](const auto& a, const auto& b) {
       return std::abs(a.strain - *peak) < std::abs(b.strain - *peak);
     });
@@ -168,11 +167,11 @@ std::vector<std::size_t> snapshot_frames(const RunResult& run) {
 
 void draw_run(const RunPicture& picture, const std::filesystem::path& out, const PlotOptions& options) {
   Canvas canvas(out, page_width, page_height);
-  const RunResult& run = *picture.run;
+  const results::RunResult& run = *picture.run;
   draw_heading(canvas, run, options);
   const Chart chart =
       draw_curve_panel(canvas, {left_margin, 156.0, middle - left_margin - 50.0, page_height - 156.0 - 78.0},
-                       {{run.column("strain_yy"), run.column("stress_yy")}}, marks_of(run, options));
+                       {{run.history.strain_yy, run.history.stress_yy}}, marks_of(run, options));
   draw_badges(canvas, chart, picture.snapshots);
   draw_snapshots(canvas, picture);
   if (!picture.snapshots.empty()) draw_key(canvas);
@@ -180,16 +179,16 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
 }
 
 void plot_run(const std::filesystem::path& run_file, const std::filesystem::path& out, const PlotOptions& options) {
-  const RunResult run = read_run(run_file);
+  const results::RunResult run = results::read_run(run_file);
   RunPicture picture{&run, {}};
-  const auto peak = summary_number(run.summary, "first_peak_strain");
+  const auto peak = results::summary_number(run.summary, "first_peak_strain");
   const std::vector<std::size_t> chosen = snapshot_frames(run);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const FrameInfo& info = run.frames[chosen[k]];
+    const results::FrameInfo& info = run.frames[chosen[k]];
     const bool at_peak = peak && k > 0 && k + 1 < chosen.size();
     const char* what =
         info.strain < 1e-6 ? "intact" : (at_peak ? "near the first peak" : (k + 1 == chosen.size() ? "last" : "first"));
-    picture.snapshots.push_back({caption_of(info, what), read_frame(run, chosen[k])});
+    picture.snapshots.push_back({caption_of(info, what), results::read_frame(run, chosen[k])});
   }
   draw_run(picture, out, options);
 }

@@ -13,7 +13,8 @@
 #include "io/journal.h"
 #include "io/schema.h"
 #include "report/canvas.h"
-#include "report/run_result.h"
+#include "results/pack_file.h"
+#include "results/run_file.h"
 
 namespace perfora::report {
 namespace {
@@ -46,7 +47,7 @@ std::string size_text(double width, double height) {
   throw io::InputError({path.string(), 0, ""}, problem, readable_files);
 }
 
-std::string made_by(const Provenance& made) {
+std::string made_by(const results::Provenance& made) {
   std::string text =
       line("program", made.program_version + (made.git_revision.empty() ? "" : " (" + made.git_revision + ")"));
   text += line("command", made.command_line);
@@ -57,16 +58,16 @@ std::string made_by(const Provenance& made) {
 }
 
 std::string describe_run(const std::filesystem::path& path) {
-  const RunResult run = read_run(path);
+  const results::RunResult run = results::read_run(path);
   std::string text =
       fmt::format("Run {}: {}{}\n", path.string(), run.status, run.reason.empty() ? "" : ", " + run.reason);
   text += line("block", size_text(run.width, run.height));
   text += line("perforations", count(run.layout.perforations.size()));
   text += line("discs", count(run.clipped.x.size()) + ", mean diameter " + millimetres(run.mean_diameter));
   text += line("bonds", count(run.bonds.size()) + ", broken " + count(run.events.size()));
-  if (run.rows() > 0) {
-    const std::vector<double>& strain = run.column("strain_yy");
-    text += line("history", count(run.rows()) + " rows of " + count(run.history.size()) + " columns, strain " +
+  if (run.history.rows() > 0) {
+    const std::vector<double>& strain = run.history.strain_yy;
+    text += line("history", count(run.history.rows()) + " rows of " + count(run.history.size()) + " columns, strain " +
                                 percent(strain.front()) + " to " + percent(strain.back()));
   }
   std::string frames = count(run.frames.size());
@@ -78,7 +79,7 @@ std::string describe_run(const std::filesystem::path& path) {
 }
 
 std::string describe_pack(const std::filesystem::path& path) {
-  const PackResult pack = read_pack(path);
+  const results::PackResult pack = results::read_pack(path);
   const geometry::PackingQuality& quality = pack.periodic.quality;
   std::string text = fmt::format("Packing {}\n", path.string());
   text += line("block", size_text(pack.periodic.width, pack.periodic.height));

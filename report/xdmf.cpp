@@ -12,7 +12,7 @@
 
 #include "io/hdf5.h"
 #include "io/journal.h"
-#include "report/run_result.h"
+#include "results/run_file.h"
 
 namespace perfora::report {
 namespace {
@@ -45,16 +45,16 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// Bonds as they lie in the picture.
+/// results::Bonds as they lie in the picture.
 struct Lines {
   std::vector<std::int32_t> pairs;
   std::vector<double> damage;
 };
 
 /// Leaves out the bonds whose ends lie more than half a cell apart: those reach across the periodic boundary.
-Lines lines_of(const Frame& frame) {
+Lines lines_of(const results::Frame& frame) {
   Lines lines;
-  const FrameInfo& cell = frame.info;
+  const results::FrameInfo& cell = frame.info;
   for (std::size_t b = 0; b < frame.bond_damage.size(); ++b) {
     const auto i = static_cast<std::size_t>(frame.bond_pairs[2 * b]);
     const auto j = static_cast<std::size_t>(frame.bond_pairs[2 * b + 1]);
@@ -74,7 +74,7 @@ struct Names {
 };
 
 /// One grid at one time. `body`: topology, geometry, attributes.
-std::string grid(const char* name, const FrameInfo& frame, const std::string& body) {
+std::string grid(const char* name, const results::FrameInfo& frame, const std::string& body) {
   return fmt::format(
       "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n{}      </Grid>\n", name,
       frame.time, body);
@@ -86,14 +86,14 @@ std::string topology(const char* type, std::size_t cells, int nodes, const std::
       cells, nodes, data);
 }
 
-std::string geometry_of(const Names& names, const FrameInfo& frame) {
+std::string geometry_of(const Names& names, const results::FrameInfo& frame) {
   return "        <Geometry GeometryType=\"XY\">" +
          item(Number::float64, std::to_string(names.discs) + " 2",
               names.run + ":/frames/" + frame.name + "/discs/position") +
          "</Geometry>\n";
 }
 
-std::string discs_grid(const Names& names, const FrameInfo& frame) {
+std::string discs_grid(const Names& names, const results::FrameInfo& frame) {
   const std::string n = std::to_string(names.discs);
   const std::string group = names.run + ":/frames/" + frame.name + "/discs/";
   return grid("discs", frame,
@@ -106,7 +106,7 @@ std::string discs_grid(const Names& names, const FrameInfo& frame) {
                   attribute("damage", "Node", item(Number::float64, n, group + "damage")));
 }
 
-std::string bonds_grid(const Names& names, const FrameInfo& frame, std::size_t bonds) {
+std::string bonds_grid(const Names& names, const results::FrameInfo& frame, std::size_t bonds) {
   const std::string m = std::to_string(bonds);
   const std::string group = names.companion + ":/frames/" + frame.name + "/bonds/";
   return grid("bonds", frame,
@@ -120,7 +120,7 @@ std::string inline_item(Number number, const char* dimensions, const std::string
                      is_integer ? "Int" : "Float", is_integer ? 4 : 8, dimensions, values);
 }
 
-std::string cell_grid(const FrameInfo& cell) {
+std::string cell_grid(const results::FrameInfo& cell) {
   const std::string corners = fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx,
                                           cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
   return grid("cell", cell,
@@ -145,7 +145,7 @@ std::filesystem::path seen_from(const std::filesystem::path& folder, const std::
 }  // namespace
 
 void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out) {
-  const RunResult run = read_run(run_file);
+  const results::RunResult run = results::read_run(run_file);
   std::filesystem::path companion = out;
   companion += ".h5";
   const Names names{escaped(seen_from(out.parent_path(), run_file).string()), escaped(companion.filename().string()),
@@ -159,8 +159,8 @@ void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::pa
 
   std::string discs, bonds, cells;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    const FrameInfo& info = run.frames[k];
-    const Lines lines = lines_of(read_frame(run, k));
+    const results::FrameInfo& info = run.frames[k];
+    const Lines lines = lines_of(results::read_frame(run, k));
     file.dataset("/frames/" + info.name + "/bonds/pairs", lines.pairs, 2);
     file.dataset("/frames/" + info.name + "/bonds/damage", lines.damage);
     discs += discs_grid(names, info);

@@ -15,19 +15,19 @@ double wrapped(double value, double period) {
 
 }  // namespace
 
-double projected_crack_length(const std::vector<BreakEvent>& events, double width, double height, int direction,
-                              double link, double shortest) {
+double projected_crack_length(const std::vector<results::BreakEvent>& events, double width, double height,
+                              int direction, double link, double shortest) {
   const std::size_t n = events.size();
   if (n == 0) return 0.0;
   Clusters clusters(n);
   CellGrid grid;
   grid.build(static_cast<std::int32_t>(n), link / width, link / height, [&](std::int32_t k) {
-    const BreakEvent& e = events[static_cast<std::size_t>(k)];
+    const results::BreakEvent& e = events[static_cast<std::size_t>(k)];
     return std::pair{wrapped(e.x, width) / width, wrapped(e.y, height) / height};
   });
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(n); ++i)
     grid.around(i, [&](std::int32_t j) {
-      const BreakEvent &a = events[static_cast<std::size_t>(i)], &b = events[static_cast<std::size_t>(j)];
+      const results::BreakEvent &a = events[static_cast<std::size_t>(i)], &b = events[static_cast<std::size_t>(j)];
       double dx = b.x - a.x, dy = b.y - a.y;
       dx -= width * std::nearbyint(dx / width);
       dy -= height * std::nearbyint(dy / height);

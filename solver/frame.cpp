@@ -1,4 +1,4 @@
-// What is here: see frame.h.
+// What is here: positions, angles, fragments and lost bonds of a simulation at one moment. What is not: files.
 #include "solver/frame.h"
 
 #include "solver/fragments.h"
@@ -14,14 +14,13 @@ std::vector<std::int32_t> count_bonds_per_disc(const BondNetwork& network, std::
   return count;
 }
 
-FrameData take_frame(const Simulation& simulation, const std::vector<std::int32_t>& original_bonds) {
+results::Frame take_frame(const Simulation& simulation, const std::vector<std::int32_t>& original_bonds) {
   const BondNetwork& network = simulation.network();
   const DiscState& discs = simulation.discs();
   const auto n = static_cast<std::size_t>(discs.size());
-  FrameData frame;
-  frame.strain = simulation.strain();
-  frame.time = simulation.time();
-  frame.cell = simulation.block();
+  results::Frame frame;
+  const CellMatrix block = simulation.block();
+  frame.info = {"", simulation.strain(), simulation.time(), block.xx, block.xy, block.yy};
   frame.position.reserve(2 * n);
   for (std::int32_t d = 0; d < discs.size(); ++d) {
     const auto [x, y] = simulation.position(d);
@@ -38,9 +37,9 @@ FrameData take_frame(const Simulation& simulation, const std::vector<std::int32_
     kept[static_cast<std::size_t>(network.i[b])] += 1.0 - network.damage[b];
     kept[static_cast<std::size_t>(network.j[b])] += 1.0 - network.damage[b];
   }
-  frame.lost.assign(n, 0.0);
+  frame.damage.assign(n, 0.0);
   for (std::size_t d = 0; d < n; ++d)
-    if (original_bonds[d] > 0) frame.lost[d] = 1.0 - kept[d] / original_bonds[d];
+    if (original_bonds[d] > 0) frame.damage[d] = 1.0 - kept[d] / original_bonds[d];
   frame.fragment = find_fragments(network, discs.radius).label;
   return frame;
 }

@@ -92,7 +92,7 @@ double slope(const std::vector<double>& x, const std::vector<double>& y, std::si
 /// modulus and lateral_ratio from the rows between 5 % and 40 % of the largest stress, as far as damage has taken no
 /// share of the work.
 void read_moduli(MaterialTestResult& result, double largest_stress) {
-  const MaterialCurve& curve = result.curve;
+  const results::MaterialCurve& curve = result.curve;
   std::size_t first = 0;
   while (first < curve.stress.size() && curve.stress[first] < slope_from * largest_stress) ++first;
   std::size_t last = first;
@@ -110,12 +110,14 @@ void read_moduli(MaterialTestResult& result, double largest_stress) {
 }
 
 /// Everything a curve holds, for work that all columns share.
-constexpr std::vector<double> MaterialCurve::*curve_columns[] = {
-    &MaterialCurve::strain, &MaterialCurve::stress, &MaterialCurve::lateral_strain, &MaterialCurve::lateral_stress,
-    &MaterialCurve::damage, &MaterialCurve::work,   &MaterialCurve::cundall,        &MaterialCurve::broken_bonds};
+constexpr std::vector<double> results::MaterialCurve::*curve_columns[] = {
+    &results::MaterialCurve::strain,         &results::MaterialCurve::stress,
+    &results::MaterialCurve::lateral_strain, &results::MaterialCurve::lateral_stress,
+    &results::MaterialCurve::damage,         &results::MaterialCurve::work,
+    &results::MaterialCurve::cundall,        &results::MaterialCurve::broken_bonds};
 
 /// Adds a row and returns what the ledger leaves over, J/m.
-double add_row(MaterialTestKind kind, Simulation& s, double width, MaterialCurve& curve) {
+double add_row(MaterialTestKind kind, Simulation& s, double width, results::MaterialCurve& curve) {
   const Virial stress = s.row_stress();
   const Ledger energy = s.ledger();
   curve.strain.push_back(strain_of(kind, s));
@@ -179,7 +181,7 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
 
 void read_results(const MaterialTestRequest& request, const Simulation& s, double residual, bool peaked,
                   MaterialTestResult& result) {
-  const MaterialCurve& curve = result.curve;
+  const results::MaterialCurve& curve = result.curve;
   const auto peak = std::max_element(curve.stress.begin(), curve.stress.end());
   result.strength = peaked ? *peak : nan;
   result.peak_strain = peaked ? curve.strain[static_cast<std::size_t>(peak - curve.stress.begin())] : nan;
@@ -187,8 +189,9 @@ void read_results(const MaterialTestRequest& request, const Simulation& s, doubl
   result.steps = s.steps();
   result.events = s.events();
   result.broken_bonds = static_cast<std::int64_t>(result.events.size());
-  result.broken_in_tension = std::count_if(result.events.begin(), result.events.end(),
-                                           [](const BreakEvent& e) { return e.mode == BreakMode::tension; });
+  result.broken_in_tension =
+      std::count_if(result.events.begin(), result.events.end(),
+                    [](const results::BreakEvent& e) { return e.mode == results::BreakMode::tension; });
   result.energy_residual = residual / *std::max_element(curve.work.begin(), curve.work.end());
   result.crack_length = result.fracture_energy = nan;
   if (request.kind != MaterialTestKind::tension || !peaked) return;
@@ -248,7 +251,8 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
   // Confined compression need not have a peak; the other tests without one have failed.
   bool peaked = false;
   result.reason = fmt::format("no peak up to strain {:.3g}", longest);
-  result.status = request.kind == MaterialTestKind::oedometric ? RunStatus::completed : RunStatus::failed;
+  result.status =
+      request.kind == MaterialTestKind::oedometric ? results::RunStatus::completed : results::RunStatus::failed;
   const double width = request.sample->width;
   add_row(request.kind, simulation, width, result.curve);
   for (double strain = 0.0; strain < longest;) {
@@ -258,7 +262,7 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
     const double stress = result.curve.stress.back();
     if (!std::isfinite(stress)) {
       for (const auto column : curve_columns) (result.curve.*column).pop_back();
-      result.status = RunStatus::failed;
+      result.status = results::RunStatus::failed;
       result.reason = fmt::format("unstable step: stress is not a number at strain {:.3g}", strain);
       break;
     }
@@ -270,12 +274,12 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
     const bool in_two = separates(request.kind) && stress < separated * strength;
     if (strain > least_peak * ready.yield_strain && (in_two || strain >= enough * peak_strain)) {
       peaked = true;
-      result.status = RunStatus::completed;
+      result.status = results::RunStatus::completed;
       result.reason = in_two ? "the sample is in two" : fmt::format("{:.3g} times the strain of the peak", enough);
       break;
     }
     if (stop_requested()) {
-      result.status = RunStatus::stopped;
+      result.status = results::RunStatus::stopped;
       result.reason = "signal";
       break;
     }

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "geometry/packing.h"
+#include "results/break_event.h"
+#include "results/material_file.h"
+#include "results/status.h"
 #include "solver/frame.h"
 #include "solver/options.h"
-#include "solver/response.h"
 
 namespace perfora::solver {
 
@@ -31,21 +33,10 @@ struct MaterialTestRequest {
   std::function<void(double)> progress;
 };
 
-/// Rows of a test: equally long columns. Strain and stress have the sign of the test (positive as the test loads).
-struct MaterialCurve {
-  std::vector<double> strain;          ///< engineering, of the height; shear: h_xy/h_yy
-  std::vector<double> stress;          ///< Pa: along the loading; shear: the shear stress
-  std::vector<double> lateral_strain;  ///< engineering, extension positive
-  std::vector<double> lateral_stress;  ///< Pa, compression positive
-  std::vector<double> damage;          ///< dissipated by damage so far, J per metre of depth
-  std::vector<double> work, cundall;   ///< external work, Cundall damping, J per metre of depth
-  std::vector<double> broken_bonds;
-};
-
 /// Result of a test; NaN where a value was not reached.
 struct MaterialTestResult {
   MaterialTestKind kind = MaterialTestKind::tension;
-  RunStatus status = RunStatus::completed;
+  results::RunStatus status = results::RunStatus::completed;
   std::string reason;
   double strength = 0.0;         ///< largest stress, Pa
   double peak_strain = 0.0;      ///< where it was reached
@@ -56,9 +47,9 @@ struct MaterialTestResult {
   double energy_residual = 0.0;  ///< largest |external work - all parts| of all rows over the largest work
   std::int64_t steps = 0, broken_bonds = 0, broken_in_tension = 0;
   double rate = 0.0, time_step = 0.0;
-  MaterialCurve curve;
-  FrameData frame;  ///< the sample at the end
-  std::vector<BreakEvent> events;
+  results::MaterialCurve curve;
+  results::Frame frame;  ///< the sample at the end
+  std::vector<results::BreakEvent> events;
 };
 
 /// A test without a peak (up to forty times the estimated yield strain, at most 0.3) has failed, but for the oedometric
@@ -77,7 +68,7 @@ double estimated_yield_strain(MaterialTestKind kind, const SolverOptions& option
 /// Length of the cracks across `direction` (0: measured along x, 1: along y) in metres: broken bonds whose midpoints
 /// lie within `link` of each other (periodic cell width x height) form a crack; each crack counts with the part of the
 /// side that its midpoints occupy, in pieces of `link`; cracks shorter than `shortest` do not count.
-double projected_crack_length(const std::vector<BreakEvent>& events, double width, double height, int direction,
-                              double link, double shortest);
+double projected_crack_length(const std::vector<results::BreakEvent>& events, double width, double height,
+                              int direction, double link, double shortest);
 
 }  // namespace perfora::solver

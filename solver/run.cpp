@@ -14,10 +14,12 @@
 
 #include "io/memory.h"
 #include "io/progress.h"
+#include "results/measures.h"
+#include "results/run_file.h"
+#include "solver/checkpoint.h"
 #include "solver/fragments.h"
 #include "solver/frame.h"
-#include "solver/measures.h"
-#include "solver/run_files.h"
+#include "solver/run_folder.h"
 #include "solver/run_setup.h"
 #include "solver/simulation.h"
 
@@ -66,7 +68,7 @@ class Run {
         folder_(request.run_file),
         original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
-    Summary& summary = response_.summary;
+    results::Summary& summary = response_.summary;
     summary.noise_mean = strength.mean;
     summary.noise_std = strength.deviation;
     summary.noise_min = strength.smallest;
@@ -104,8 +106,8 @@ class Run {
   /// set.
   std::string identity() const {
     return fmt::format("# results_version {}, seeds {}, kernel {}\n", request_.provenance.results_version,
-                       request_.provenance.seeds_json, simulation_->simd()) +
-           request_.provenance.config_toml;
+                       request_.provenance.seeds, simulation_->simd()) +
+           request_.provenance.config;
   }
 
   bool writes() const { return !request_.run_file.empty(); }
@@ -151,7 +153,7 @@ class Run {
       }
       if (steps % steps_between_looks == 0 && look()) return;
     }
-    response_.summary.status = RunStatus::completed;
+    response_.summary.status = results::RunStatus::completed;
     response_.summary.reason = fmt::format("reached strain {:.6g}", simulation_->strain());
   }
 
@@ -162,7 +164,7 @@ class Run {
     const bool stopping = stop_requested() || out_of_time;
     // Never store what cannot be gone on with.
     if (!std::isfinite(simulation_->stress().yy) || !std::isfinite(simulation_->kinetic_energy_at_half_step())) {
-      response_.summary.status = RunStatus::failed;
+      response_.summary.status = results::RunStatus::failed;
       response_.summary.reason =
           fmt::format("unstable step: stress is not a number at strain {:.4f}", simulation_->strain());
       return true;
@@ -173,7 +175,7 @@ class Run {
       last_checkpoint_ = Clock::now();
     }
     if (stopping) {
-      response_.summary.status = RunStatus::stopped;
+      response_.summary.status = results::RunStatus::stopped;
       response_.summary.reason = stop_requested() ? "signal" : "wall time";
     }
     return stopping;
@@ -187,7 +189,7 @@ class Run {
       fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
       fragments_at_breaks_ = static_cast<std::int64_t>(simulation_->events().size());
     }
-    History& h = progress_.history;
+    results::History& h = progress_.history;
     h.strain_yy.push_back(strain);
     h.strain_yy_log.push_back(-std::log(1.0 - strain));
     h.stress_yy.push_back(stress.yy);
@@ -227,7 +229,7 @@ class Run {
 
   /// Mean pressures on platens and side walls; their columns exist only where such walls are.
   void add_pressures() {
-    History& h = progress_.history;
+    results::History& h = progress_.history;
     const Walls& walls = simulation_->walls();
     for (std::size_t w = 0; w < walls.places().size(); ++w) {
       if (!walls.places()[w].edge) continue;
@@ -251,48 +253,51 @@ class Run {
     }
   }
 
-  void keep_frame() { write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_)); }
+  void keep_frame() {
+    results::write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_));
+  }
 
   bool failed() {
-    const History& h = progress_.history;
+    const results::History& h = progress_.history;
     const double overlap = simulation_->largest_overlap() / request_.mean_diameter;
     if (std::isfinite(h.stress_yy.back()) && std::isfinite(h.kinetic.back()) && overlap < unstable_overlap)
       return false;
-    response_.summary.status = RunStatus::failed;
+    response_.summary.status = results::RunStatus::failed;
     response_.summary.reason =
         fmt::format("unstable step: largest overlap {:.3g} <d> at strain {:.4f}", overlap, simulation_->strain());
     return true;
   }
 
   void finish() {
-    Summary& s = response_.summary;
-    const History& h = progress_.history;
+    results::Summary& s = response_.summary;
+    const results::History& h = progress_.history;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     s.steps = simulation_->steps();
     s.final_strain = simulation_->strain();
-    measure_rate(h, s);
+    results::measure_rate(h, s);
     s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
     const double area = request_.layout->width * request_.layout->height;
-    measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
+    results::measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
     s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
-    s.broken_in_tension = std::count_if(simulation_->events().begin(), simulation_->events().end(),
-                                        [](const BreakEvent& e) { return e.mode == BreakMode::tension; });
+    s.broken_in_tension =
+        std::count_if(simulation_->events().begin(), simulation_->events().end(),
+                      [](const results::BreakEvent& e) { return e.mode == results::BreakMode::tension; });
     s.broken_in_shear = s.broken_bonds - s.broken_in_tension;
     if (fragments_.label.empty() || fragments_at_breaks_ != s.broken_bonds)
       fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
     s.fragments = fragments_.count;
     s.largest_fragment_fraction = fragments_.largest_fraction;
     s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
-    s.energy_residual = energy_residual(h, residual_from_strain);
+    s.energy_residual = results::energy_residual(h, residual_from_strain);
     s.stress_asymmetry =
         simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
-    const double modulus = loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
+    const double modulus = results::loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
     const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
     s.transits_before_peak = simulation_->peak_time() * wave_speed / request_.layout->height;
     s.kinetic_ratio_at_peak = simulation_->peak_frozen() ? progress_.kinetic_ratio : nan;
 
-    Performance& p = response_.performance;
+    results::Performance& p = response_.performance;
     const double seconds = seconds_since(started_);
     const double steps = static_cast<double>(s.steps - first_step_);
     const double bond_steps = simulation_->bond_steps() - first_bond_steps_;
@@ -304,9 +309,36 @@ class Run {
     p.peak_memory = io::peak_memory_bytes();
     response_.history = h;
     if (!writes()) return;
-    const std::string summary = request_.summary_text ? request_.summary_text(response_) : std::string("{}");
-    write_run_file(request_, *simulation_, folder_, progress_, response_, summary);
-    if (s.status != RunStatus::stopped) folder_.remove();  // a stopped run can be resumed from it
+    results::write_run(request_.run_file, record(), folder_.frame_files(progress_.frames), request_.periodic);
+    if (s.status != results::RunStatus::stopped) folder_.remove();  // a stopped run can be resumed from it
+  }
+
+  /// The run as its file holds it, frames aside.
+  results::RunResult record() const {
+    results::RunResult run;
+    run.status = results::status_name(response_.summary.status);
+    run.reason = response_.summary.reason;
+    run.provenance = request_.provenance;
+    run.provenance.simd = response_.performance.simd;
+    run.provenance.threads = response_.performance.threads;
+    run.provenance.seconds = response_.performance.seconds;
+    run.width = request_.layout->width;
+    run.height = request_.layout->height;
+    run.mean_diameter = request_.mean_diameter;
+    const BoundaryOptions& boundary = request_.options.boundary;
+    run.edges = {boundary.top_bottom == TopBottom::platens, boundary.sides == Sides::walls,
+                 boundary.sides == Sides::free};
+    run.history = progress_.history;
+    run.events = simulation_->events();
+    const BondNetwork& network = simulation_->network();
+    run.bonds.rest_length = network.rest_length;
+    run.bonds.strength_factor.assign(network.strength.begin(), network.strength.end());
+    for (std::size_t b = 0; b < network.i.size(); ++b)
+      run.bonds.pairs.insert(run.bonds.pairs.end(), {network.i[b], network.j[b]});
+    run.layout = *request_.layout;
+    run.clipped = *request_.clipped;
+    run.summary = request_.summary ? request_.summary(response_) : nlohmann::json::object();
+    return run;
   }
 
   const RunRequest& request_;

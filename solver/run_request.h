@@ -5,23 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <nlohmann/json.hpp>
 
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
+#include "results/history.h"
+#include "results/provenance.h"
+#include "results/summary.h"
 #include "solver/options.h"
-#include "solver/response.h"
 
 namespace perfora::solver {
-
-/// Text written to R.h5 as it is: everything that says where a result came from.
-struct Provenance {
-  std::string config_toml;  ///< resolved configuration
-  std::string seeds_json;
-  std::string command_line;
-  std::string program_version, git_revision, compiler;
-  int results_version = 0;
-};
 
 struct Response;
 
@@ -37,18 +30,18 @@ struct RunRequest {
   std::filesystem::path run_file;
   bool resume = false;  ///< go on from R.part/ when it holds a checkpoint of the same configuration
   const geometry::Packing* periodic = nullptr;  ///< unclipped packing for /packing in R.h5; may be null
-  Provenance provenance;
+  results::Provenance provenance;               ///< all but simd, threads and seconds
   double wall_time_limit = 0.0;  ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
-  /// Text for /summary of R.h5, made from the finished response (the JSON of `perfora evaluate --json`). May be empty.
-  std::function<std::string(const Response&)> summary_text;
+  /// /summary of R.h5, made from the finished response (what `perfora evaluate --json` prints). May be empty.
+  std::function<nlohmann::json(const Response&)> summary;
   /// Called at history rows: fraction done and a line with strain, stress, rate. May be empty.
   std::function<void(double, const std::string&)> progress;
 };
 
 struct Response {
-  Summary summary;
-  Performance performance;
-  History history;
+  results::Summary summary;
+  results::Performance performance;
+  results::History history;
   std::int64_t discs = 0;
   std::int64_t bonds = 0;
   double bonds_per_disc = 0.0;  ///< 2 bonds/discs

@@ -214,7 +214,7 @@ void Simulation::record_breaks() {
     const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[at(id)],
                                            network_.direction_y[at(id)], network_.rest_length[at(id)]);
     const auto [x, y] = position(i);
-    BreakEvent event;
+    results::BreakEvent event;
     event.time = time();
     event.strain = strain();
     event.bond = id;
@@ -227,7 +227,7 @@ void Simulation::record_breaks() {
     const double tension = k.delta_n * bond_law_.inverse_critical_normal * scale;
     const double shear =
         half_integer_power(std::fabs(k.delta_t) * bond_law_.inverse_critical_shear * scale, bond_law_.twice_alpha);
-    event.mode = tension > shear ? BreakMode::tension : BreakMode::shear;
+    event.mode = tension > shear ? results::BreakMode::tension : results::BreakMode::shear;
     const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[at(id)]);
     const BondPoint point{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
     event.energy = damageable_energy(bond_law_, point, point);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/packing.h"
+#include "results/break_event.h"
 #include "solver/cell.h"
 #include "solver/damping.h"
 #include "solver/integrator.h"
@@ -14,7 +15,6 @@
 #include "solver/loading_rate.h"
 #include "solver/mass.h"
 #include "solver/options.h"
-#include "solver/response.h"
 #include "solver/walls.h"
 
 namespace perfora::solver {
@@ -91,7 +91,7 @@ class Simulation {
     backend_->collect(near_pairs_);
     return near_pairs_;
   }
-  const std::vector<BreakEvent>& events() const { return events_; }
+  const std::vector<results::BreakEvent>& events() const { return events_; }
   std::int64_t intact_bonds() const { return static_cast<std::int64_t>(progress_.intact); }
   std::string simd() const { return backend_->simd(); }
   /// Position of a disc from the block's lower left corner, m; wrapped where the block is periodic.
@@ -124,7 +124,7 @@ class Simulation {
     std::vector<std::uint8_t> bond_state;
     NearPairs::Snapshot near_pairs;
     Walls::Snapshot walls;
-    std::vector<BreakEvent> events;
+    std::vector<results::BreakEvent> events;
   };
   Snapshot snapshot() const;
   /// Goes on exactly where the snapshot was taken: the same bits as the run that never stopped.
@@ -157,7 +157,7 @@ class Simulation {
   Walls walls_;
   std::unique_ptr<ForceBackend> backend_;
   std::vector<std::int32_t> broken_;
-  std::vector<BreakEvent> events_;
+  std::vector<results::BreakEvent> events_;
   std::vector<KickSums> chunk_sums_;
   Progress progress_;
 };

@@ -91,7 +91,8 @@ std::vector<Evaluation> read_finished(io::Journal& journal, const std::string& k
           {path.string(), 0, ""},
           "this ensemble was made of another design, of other settings or by a program that gives other results", "",
           "resume with the same design file and flags, or start anew with --force or in another folder");
-    if (event.value("event", "") == "replicate") finished.push_back(evaluation_from_json(event.at("evaluation")));
+    if (event.value("event", "") == "replicate")
+      finished.push_back(results::evaluation_from_json(event.at("evaluation")));
   }
   return finished;
 }
@@ -101,7 +102,7 @@ std::vector<results::Statistic> statistics_of(const std::vector<Evaluation>& rep
   for (const Result& result : listed_results) {
     std::vector<double> values;
     for (const Evaluation& evaluation : replicates)
-      if (evaluation.status == solver::RunStatus::completed) values.push_back(result.value(evaluation));
+      if (evaluation.status == results::RunStatus::completed) values.push_back(result.value(evaluation));
     statistics.push_back(results::statistic_of(result.name, values));
   }
   return statistics;
@@ -109,10 +110,10 @@ std::vector<results::Statistic> statistics_of(const std::vector<Evaluation>& rep
 
 void conclude(Ensemble& ensemble) {
   const auto completed = std::count_if(ensemble.replicates.begin(), ensemble.replicates.end(),
-                                       [](const Evaluation& e) { return e.status == solver::RunStatus::completed; });
+                                       [](const Evaluation& e) { return e.status == results::RunStatus::completed; });
   ensemble.statistics = statistics_of(ensemble.replicates);
-  if (ensemble.status == solver::RunStatus::stopped) return;
-  ensemble.status = completed > 0 ? solver::RunStatus::completed : solver::RunStatus::failed;
+  if (ensemble.status == results::RunStatus::stopped) return;
+  ensemble.status = completed > 0 ? results::RunStatus::completed : results::RunStatus::failed;
   ensemble.reason = fmt::format("{} of {} replicates completed", completed, ensemble.wanted);
   if (completed == 0 && !ensemble.replicates.empty()) ensemble.reason += ": " + ensemble.replicates.front().reason;
 }
@@ -146,8 +147,8 @@ Ensemble evaluate_ensemble(const DesignFile& design, const EnsembleOptions& opti
       one.run_file = run_file;
       one.resume = options.resume;
       evaluation = evaluate_design(design, one, replicate);
-      if (evaluation.status == solver::RunStatus::stopped) {
-        ensemble.status = solver::RunStatus::stopped;
+      if (evaluation.status == results::RunStatus::stopped) {
+        ensemble.status = results::RunStatus::stopped;
         ensemble.reason = fmt::format("replicate {}: {}", replicate, evaluation.reason);
         break;
       }
@@ -173,7 +174,7 @@ json to_json(const Ensemble& ensemble) {
                           {"maximum", number(s.maximum)}};
   json runs = json::array();
   for (const Evaluation& evaluation : ensemble.replicates) runs.push_back(to_json(evaluation, false));
-  const char* status = solver::status_name(ensemble.status);
+  const char* status = results::status_name(ensemble.status);
   return {{"schema", "perfora.ensemble/1"},
           {"status", status},
           {"reason", ensemble.reason},
@@ -189,7 +190,7 @@ std::string ensemble_csv(const Ensemble& ensemble) {
   text += "\n";
   for (const Evaluation& evaluation : ensemble.replicates) {
     text += fmt::format("{},{},{},{}", evaluation.replicate,
-                        evaluation.status == solver::RunStatus::completed ? "completed" : "failed",
+                        evaluation.status == results::RunStatus::completed ? "completed" : "failed",
                         evaluation.seeds.packing, evaluation.seeds.noise);
     for (const Result& result : listed_results) {
       const double value = result.value(evaluation);

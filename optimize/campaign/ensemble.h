@@ -27,8 +27,8 @@ struct EnsembleOptions {
 };
 
 struct Ensemble {
-  solver::RunStatus status =
-      solver::RunStatus::completed;  ///< stopped: a replicate was; failed: no replicate completed
+  results::RunStatus status =
+      results::RunStatus::completed;  ///< stopped: a replicate was; failed: no replicate completed
   std::string reason;
   int wanted = 0;
   std::vector<Evaluation> replicates;          ///< finished ones (failed included), by number

@@ -35,8 +35,8 @@ int workers_for(int asked, int of_file, std::int64_t together) {
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
-solver::History coarse_curve(const solver::History& history) {
-  solver::History coarse;
+results::History coarse_curve(const results::History& history) {
+  results::History coarse;
   double strain = 0.0, stress = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < history.rows(); ++k) {
@@ -81,7 +81,7 @@ void EvaluationQueue::take_evaluation(const json& record, bool of_this_version) 
   // An older program with the same results may have known fewer keys: what was asked then has the key of today.
   const std::string key = of_this_version && record.contains("request") ? request_from_json(record.at("request")).key()
                                                                         : record.at("key").get<std::string>();
-  answers_.insert_or_assign(key, evaluation_from_json(record.at("evaluation")));
+  answers_.insert_or_assign(key, results::evaluation_from_json(record.at("evaluation")));
   simulated_seconds_ += record.value("seconds", 0.0);
   retries_ += record.value("attempts", 1) - 1;
 }
@@ -138,11 +138,11 @@ bool EvaluationQueue::run(const Next& next, const Answered& answered) {
       if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
     std::optional<Answer> answer = executor->next(look_interval);
     stopped = asked_to_stop();
-    if (!answer || answer->evaluation.status == solver::RunStatus::stopped) {
+    if (!answer || answer->evaluation.status == results::RunStatus::stopped) {
       stopped = stopped || answer;
       continue;
     }
-    if (stopped && answer->evaluation.status == solver::RunStatus::failed)
+    if (stopped && answer->evaluation.status == results::RunStatus::failed)
       continue;  // It may have died of the same signal.
     const Asked asked = in_flight_.at(answer->key);
     record(asked, std::move(*answer));

@@ -97,6 +97,6 @@ int workers_for(int asked, int of_file, std::int64_t together);
 
 /// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
 /// 3 %. What the journal keeps.
-solver::History coarse_curve(const solver::History& history);
+results::History coarse_curve(const results::History& history);
 
 }  // namespace perfora::optimize

@@ -257,12 +257,12 @@ class ChildExecutor final : public Executor {
     if (!child.job) return lose(child, "the worker spoke without being asked");
     Evaluation evaluation;
     try {
-      evaluation = evaluation_from_json(nlohmann::json::parse(line));
+      evaluation = results::evaluation_from_json(nlohmann::json::parse(line));
     } catch (const std::exception& error) {
       return lose(child, fmt::format("the worker's answer cannot be read ({})", error.what()));
     }
     // Nobody here asked for that: as good as a kill.
-    if (evaluation.status == solver::RunStatus::stopped) return lose(child, "the worker was told to stop");
+    if (evaluation.status == results::RunStatus::stopped) return lose(child, "the worker was told to stop");
     const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
     answers_.push_back({child.job->key, std::move(evaluation), child.job->attempts, seconds});
     child.job.reset();

@@ -99,10 +99,10 @@ std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int worker
 Evaluation failed_evaluation(const Request& request, const std::string& reason) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Evaluation evaluation;
-  evaluation.status = solver::RunStatus::failed;
+  evaluation.status = results::RunStatus::failed;
   evaluation.reason = reason;
   evaluation.replicate = request.replicate;
-  evaluation.summary.status = solver::RunStatus::failed;
+  evaluation.summary.status = results::RunStatus::failed;
   evaluation.summary.reason = reason;
   evaluation.summary.plateau_stress = unknown;
   evaluation.summary.first_peak_stress = unknown;

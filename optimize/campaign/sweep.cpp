@@ -351,7 +351,7 @@ const std::vector<std::string>& sweep_measures() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> found{"discs",         "perforations",   "porosity",
                                    "thinnest_wall", "solid_fraction", "bonds_per_disc"};
-    const nlohmann::json record = to_json(solver::Summary{});
+    const nlohmann::json record = to_json(results::Summary{});
     for (const auto& entry : record.items())
       if (entry.value().is_number()) found.push_back(entry.key());
     return found;

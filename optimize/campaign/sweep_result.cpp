@@ -104,7 +104,7 @@ json to_json(const SweepRun& run) {
     cases.push_back(std::move(record));
   }
   return {{"schema", "perfora.sweep/1"},
-          {"status", solver::status_name(run.status())},
+          {"status", results::status_name(run.status())},
           {"reason", run.reason()},
           {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
           {"results_version", results_version},
@@ -151,7 +151,7 @@ std::string runs_csv(const SweepRun& run) {
     for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
       const Evaluation* evaluation = run.known(one, replicate);
       if (!evaluation) continue;
-      text += case_columns(run, one) + fmt::format(",{},{},{},{}", replicate, solver::status_name(evaluation->status),
+      text += case_columns(run, one) + fmt::format(",{},{},{},{}", replicate, results::status_name(evaluation->status),
                                                    evaluation->seeds.packing, evaluation->seeds.noise);
       for (const double value : measures_of(*evaluation)) text += field(value);
       text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + ",";
@@ -168,7 +168,7 @@ std::string curves_csv(const SweepRun& run) {
     for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
       const Evaluation* evaluation = run.completed(one, replicate);
       if (!evaluation) continue;
-      const solver::History& curve = evaluation->curve;
+      const results::History& curve = evaluation->curve;
       for (std::size_t k = 0; k < curve.rows(); ++k)
         text += fmt::format("{},{},{:.6g},{:.6g}\n", one.number, replicate, curve.strain_yy[k], curve.stress_yy[k]);
     }

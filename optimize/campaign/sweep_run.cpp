@@ -54,7 +54,7 @@ const Evaluation* SweepRun::known(const SweepCase& one, int replicate) const {
 
 const Evaluation* SweepRun::completed(const SweepCase& one, int replicate) const {
   const Evaluation* evaluation = known(one, replicate);
-  return evaluation && evaluation->status == solver::RunStatus::completed ? evaluation : nullptr;
+  return evaluation && evaluation->status == results::RunStatus::completed ? evaluation : nullptr;
 }
 
 std::vector<Asked> SweepRun::wanted() const {
@@ -70,7 +70,7 @@ std::vector<Asked> SweepRun::wanted() const {
 void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
   const auto& summary = evaluation.summary;
   const std::string what =
-      evaluation.status == solver::RunStatus::completed
+      evaluation.status == results::RunStatus::completed
           ? fmt::format("first peak {}, plateau {}", io::readable_stress(summary.first_peak_stress),
                         io::readable_stress(summary.plateau_stress))
           : "failed: " + evaluation.reason;
@@ -87,9 +87,9 @@ void SweepRun::run() {
   for (const SweepCase& one : sweep_.cases)
     for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
       if (completed(one, replicate)) reached.insert(key_of(one, replicate));
-  status_ = !done              ? solver::RunStatus::stopped
-            : !reached.empty() ? solver::RunStatus::completed
-                               : solver::RunStatus::failed;
+  status_ = !done              ? results::RunStatus::stopped
+            : !reached.empty() ? results::RunStatus::completed
+                               : results::RunStatus::failed;
   reason_ = done ? fmt::format("{} of {} runs completed", reached.size(), sweep_.runs())
                  : "stopped by a signal; go on with --resume";
   queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});

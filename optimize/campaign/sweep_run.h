@@ -25,7 +25,7 @@ class SweepRun {
 
   const Sweep& sweep() const { return sweep_; }
   const WorkOptions& options() const { return queue_->options(); }
-  solver::RunStatus status() const { return status_; }
+  results::RunStatus status() const { return status_; }
   std::string reason() const { return reason_; }
   /// The evaluation of one run; nullptr while it is not known.
   const Evaluation* known(const SweepCase& one, int replicate) const;
@@ -43,7 +43,7 @@ class SweepRun {
   Sweep sweep_;
   std::unique_ptr<EvaluationQueue> queue_;
   std::vector<std::vector<std::string>> keys_;  ///< by case and replicate; empty where a case cannot be run
-  solver::RunStatus status_ = solver::RunStatus::completed;
+  results::RunStatus status_ = results::RunStatus::completed;
   std::string reason_;
   double seconds_ = 0.0;
 };

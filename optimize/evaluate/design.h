@@ -11,6 +11,8 @@
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
 #include "io/schema.h"
+#include "results/evaluation.h"
+#include "results/provenance.h"
 #include "solver/options.h"
 
 namespace perfora::optimize {
@@ -23,10 +25,7 @@ struct Seeds {
   std::int64_t seed = 1;
   std::int64_t packing = 0, noise = 0, layout = 0, search = 0;  ///< 0: derived from `seed`
 
-  struct Effective {
-    std::uint64_t packing = 0, noise = 0, layout = 0, search = 0;
-    bool operator==(const Effective&) const = default;
-  };
+  using Effective = results::EffectiveSeeds;
   Effective effective(int replicate) const;
 };
 
@@ -70,7 +69,6 @@ class DesignFile {
   std::filesystem::path path_;
 };
 
-/// Raised with every change of what an evaluation gives; part of the cache key of studies.
-inline constexpr int results_version = 3;
+using results::results_version;
 
 }  // namespace perfora::optimize

@@ -1,12 +1,14 @@
 // What is here: see elastic_answer.h.
 #include "optimize/evaluate/elastic_answer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
-#include "geometry/packing_file.h"
 #include "io/error.h"
+#include "results/elastic_file.h"
+#include "results/formats.h"
 #include "solver/simulation.h"
 
 namespace perfora::optimize {
@@ -33,7 +35,7 @@ void solve(const DesignFile& file, ElasticAnswer& answer) {
   answer.response = solver::elastic_response(answer.network, static_cast<std::int32_t>(clipped.size()), clipped.width,
                                              clipped.height, options.material);
   if (answer.response.status != solver::ElasticStatus::converged) {
-    answer.status = solver::RunStatus::failed;
+    answer.status = results::RunStatus::failed;
     answer.reason = "the equilibrium was not reached";
     return;
   }
@@ -42,7 +44,7 @@ void solve(const DesignFile& file, ElasticAnswer& answer) {
   const auto& stiffness = answer.response.stiffness;
   const auto& affine = answer.response.affine_stiffness;
   if (stiffness[0][0] < nothing * affine[0][0] && stiffness[1][1] < nothing * affine[1][1]) {
-    answer.status = solver::RunStatus::failed;
+    answer.status = results::RunStatus::failed;
     answer.reason = "the bonds do not connect the block: raise material.horizon or packing.solid_fraction";
     return;
   }
@@ -97,36 +99,28 @@ std::pair<double, double> place_of(const ElasticAnswer& answer, std::int32_t bon
           wrapped(clipped.y[i] + half * answer.network.direction_y[id], clipped.height)};
 }
 
-const char* mode_name(solver::BreakMode mode) {
-  return mode == solver::BreakMode::tension ? "tension" : "shear";
+const char* mode_name(results::BreakMode mode) {
+  return mode == results::BreakMode::tension ? "tension" : "shear";
 }
 
-void write_first_yield(io::Hdf5Writer& file, const ElasticAnswer& answer) {
-  const solver::FirstYield& first = answer.first_yield;
-  file.dataset("/first_yield/disc_strain", first.disc_strain, 0, "1");
-  std::vector<double> x, y, strain;
-  std::vector<std::int32_t> pairs;
-  std::vector<std::uint8_t> mode;
-  for (const solver::YieldingBond& bond : first.first_bonds) {
-    const auto [px, py] = place_of(answer, bond.bond);
-    x.push_back(px);
-    y.push_back(py);
-    strain.push_back(bond.strain);
-    pairs.push_back(answer.network.i[static_cast<std::size_t>(bond.bond)]);
-    pairs.push_back(answer.network.j[static_cast<std::size_t>(bond.bond)]);
-    mode.push_back(static_cast<std::uint8_t>(bond.mode));
+results::FirstBonds first_bonds_of(const ElasticAnswer& answer) {
+  results::FirstBonds first;
+  for (const solver::YieldingBond& bond : answer.first_yield.first_bonds) {
+    const auto [x, y] = place_of(answer, bond.bond);
+    first.x.push_back(x);
+    first.y.push_back(y);
+    first.strain.push_back(bond.strain);
+    first.pairs.push_back(answer.network.i[static_cast<std::size_t>(bond.bond)]);
+    first.pairs.push_back(answer.network.j[static_cast<std::size_t>(bond.bond)]);
+    first.mode.push_back(static_cast<std::int32_t>(bond.mode));
   }
-  file.dataset("/first_yield/bonds/x", x, 0, "m");
-  file.dataset("/first_yield/bonds/y", y, 0, "m");
-  file.dataset("/first_yield/bonds/strain", strain, 0, "1");
-  file.dataset("/first_yield/bonds/pairs", pairs, 2);
-  file.dataset("/first_yield/bonds/mode", mode);
+  return first;
 }
 
-void write_stiffness(io::Hdf5Writer& file, const std::string& name, const solver::PlaneStiffness& stiffness) {
-  std::vector<double> flat;
-  for (const auto& row : stiffness) flat.insert(flat.end(), row.begin(), row.end());
-  file.dataset(name, flat, 3, "Pa");
+std::vector<double> flat(const solver::PlaneStiffness& stiffness) {
+  std::vector<double> values;
+  for (const auto& row : stiffness) values.insert(values.end(), row.begin(), row.end());
+  return values;
 }
 
 }  // namespace
@@ -140,7 +134,7 @@ ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& op
   answer.packing_seconds = seconds_since(start);
   const geometry::PackingQuality& quality = answer.packed.periodic.quality;
   if (!quality.reached || answer.packed.clipped.size() == 0) {
-    answer.status = solver::RunStatus::failed;
+    answer.status = results::RunStatus::failed;
     answer.reason =
         quality.reached ? "no disc is left between the perforations" : "packing not reached: " + quality.reason;
   } else {
@@ -154,9 +148,9 @@ ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& op
 }
 
 json to_json(const ElasticAnswer& answer) {
-  const bool reached = answer.status == solver::RunStatus::completed;
-  json record = {{"schema", "perfora.elastic/1"},
-                 {"status", solver::status_name(answer.status)},
+  const bool reached = answer.status == results::RunStatus::completed;
+  json record = {{"schema", results::elastic_format},
+                 {"status", results::status_name(answer.status)},
                  {"reason", answer.reason},
                  {"seeds", to_json(answer.seeds)},
                  {"results_version", results_version},
@@ -185,17 +179,17 @@ json to_json(const ElasticAnswer& answer) {
 
 void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticAnswer& answer,
                         const json& summary, const std::string& command_line) {
-  io::Hdf5Writer file(path);
-  write_record(file, "perfora.elastic/1", design, summary, command_line);
-  geometry::write_layout(file, "/layout", answer.packed.layout);
-  geometry::write_packing(file, "/clipped", answer.packed.clipped);
-  write_stiffness(file, "/stiffness", answer.response.stiffness);
-  write_stiffness(file, "/affine_stiffness", answer.response.affine_stiffness);
-  constexpr std::array names = {"/displacement/xx", "/displacement/yy", "/displacement/xy"};
-  for (std::size_t e = 0; e < names.size(); ++e)
-    file.dataset(names[e], answer.response.displacement[e], 3, "m, m, rad per unit strain");
-  write_first_yield(file, answer);
-  file.commit();
+  results::ElasticResult elastic;
+  elastic.provenance = provenance_of(design, answer.seeds, command_line);
+  elastic.clipped = answer.packed.clipped;
+  elastic.layout = answer.packed.layout;
+  elastic.stiffness = flat(answer.response.stiffness);
+  elastic.affine_stiffness = flat(answer.response.affine_stiffness);
+  std::copy(answer.response.displacement.begin(), answer.response.displacement.end(), elastic.displacement.begin());
+  elastic.disc_strain = answer.first_yield.disc_strain;
+  elastic.first_bonds = first_bonds_of(answer);
+  elastic.summary = summary;
+  results::write_elastic(path, elastic);
 }
 
 }  // namespace perfora::optimize

@@ -16,7 +16,7 @@ namespace perfora::optimize {
 /// The elastic answer of one design and replicate. A packing or a solution that was not reached is status `failed` with
 /// its reason; all numbers of the answer are then not reached.
 struct ElasticAnswer {
-  solver::RunStatus status = solver::RunStatus::completed;
+  results::RunStatus status = results::RunStatus::completed;
   std::string reason;
   Seeds::Effective seeds;
   int replicate = 0;
@@ -24,7 +24,7 @@ struct ElasticAnswer {
   solver::BondNetwork network;
   solver::ElasticResponse response;
   solver::FirstYield first_yield;
-  solver::Performance performance;
+  results::Performance performance;
   double packing_seconds = 0.0, solution_seconds = 0.0;  ///< shares of performance.seconds
 };
 

@@ -9,8 +9,8 @@
 
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
-#include "io/provenance.h"
 #include "optimize/evaluate/packing_cache.h"
+#include "results/formats.h"
 #include "solver/bond_network.h"
 
 namespace perfora::optimize {
@@ -20,8 +20,8 @@ namespace {
 constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
 
 /// A summary of a run that never began.
-solver::Summary empty_summary() {
-  solver::Summary summary;
+results::Summary empty_summary() {
+  results::Summary summary;
   for (double* value : {&summary.time_step,
                         &summary.rate,
                         &summary.smallest_rate,
@@ -50,8 +50,8 @@ solver::Summary empty_summary() {
   return summary;
 }
 
-PackSummary empty_pack_summary() {
-  PackSummary summary;
+results::PackSummary empty_pack_summary() {
+  results::PackSummary summary;
   for (double* value : {&summary.mean_diameter, &summary.solid_fraction, &summary.porosity, &summary.bonds_per_disc,
                         &summary.thinnest_wall_discretised, &summary.max_overlap_ratio, &summary.coordination_number,
                         &summary.rattler_fraction})
@@ -84,9 +84,9 @@ std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, 
   });
 }
 
-PackSummary summarise(const geometry::PerforationLayout& layout, const geometry::Packing& periodic,
-                      const geometry::Packing& clipped) {
-  PackSummary summary;
+results::PackSummary summarise(const geometry::PerforationLayout& layout, const geometry::Packing& periodic,
+                               const geometry::Packing& clipped) {
+  results::PackSummary summary;
   summary.discs = clipped.size();
   summary.perforations = static_cast<std::int64_t>(layout.perforations.size());
   summary.mean_diameter = periodic.mean_diameter();
@@ -113,8 +113,8 @@ PackedDesign pack_without_bonds(const DesignFile& file, const EvaluateOptions& o
 }
 
 /// The results of a run as an evaluation; curve and all.
-Evaluation evaluation_of(const solver::Response& response, const PackSummary& pack, const Seeds::Effective& seeds,
-                         int replicate) {
+Evaluation evaluation_of(const solver::Response& response, const results::PackSummary& pack,
+                         const Seeds::Effective& seeds, int replicate) {
   Evaluation evaluation;
   evaluation.replicate = replicate;
   evaluation.seeds = seeds;
@@ -141,13 +141,7 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
   request.resume = options.resume;
   request.wall_time_limit = options.wall_time_limit;
   request.progress = options.progress;
-  request.provenance.config_toml = file.schema().to_toml();
-  request.provenance.seeds_json = to_json(seeds).dump();
-  request.provenance.command_line = options.command_line;
-  request.provenance.program_version = io::program_version();
-  request.provenance.git_revision = io::git_revision();
-  request.provenance.compiler = io::compiler();
-  request.provenance.results_version = results_version;
+  request.provenance = provenance_of(file, seeds, options.command_line);
   return request;
 }
 
@@ -155,6 +149,15 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
 
 double mean_diameter_of(const DesignFile& design, const geometry::Packing& periodic) {
   return design.design().packing.file.empty() ? design.design().packing.mean_diameter : periodic.mean_diameter();
+}
+
+results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
+                                  const std::string& command_line) {
+  results::Provenance made = results::provenance_of_this_program();
+  made.command_line = command_line;
+  made.seeds = to_json(seeds).dump();
+  made.config = design.schema().to_toml();
+  return made;
 }
 
 PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
@@ -171,7 +174,7 @@ PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& option
 
 Evaluation failed_evaluation(const std::string& reason, int replicate, const Seeds::Effective& seeds) {
   Evaluation evaluation;
-  evaluation.status = solver::RunStatus::failed;
+  evaluation.status = results::RunStatus::failed;
   evaluation.reason = reason;
   evaluation.replicate = replicate;
   evaluation.seeds = seeds;
@@ -194,9 +197,9 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
   const io::Hdf5Reader file(run_file);
   if (!file.has("/summary") || !file.has("/config")) return std::nullopt;
   const nlohmann::json record = nlohmann::json::parse(file.text("/summary"), nullptr, false);
-  if (!record.is_object() || record.value("schema", "") != "perfora.evaluate/1") return std::nullopt;
-  Evaluation evaluation = evaluation_from_json(record);
-  if (evaluation.status == solver::RunStatus::stopped) return std::nullopt;
+  if (!record.is_object() || record.value("schema", std::string()) != results::evaluation_schema) return std::nullopt;
+  Evaluation evaluation = results::evaluation_from_json(record);
+  if (evaluation.status == results::RunStatus::stopped) return std::nullopt;
   if (file.text("/config") != design.schema().to_toml() || evaluation.replicate != replicate ||
       evaluation.seeds != design.design().seeds.effective(replicate) ||
       record.value("results_version", 0) != results_version)
@@ -223,8 +226,8 @@ Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& opti
     return failed;
   }
   solver::RunRequest request = run_request(design, packed, options, seeds);
-  request.summary_text = [&](const solver::Response& response) {
-    return to_json(evaluation_of(response, packed.summary, seeds, replicate), false).dump(2);
+  request.summary = [&](const solver::Response& response) {
+    return to_json(evaluation_of(response, packed.summary, seeds, replicate), false);
   };
   solver::Response response = solver::run_compression(request);
   Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate);

@@ -12,12 +12,10 @@
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
 #include "optimize/evaluate/design.h"
-#include "solver/response.h"
+#include "results/evaluation.h"
+#include "results/json.h"
+#include "results/provenance.h"
 #include "solver/run.h"
-
-namespace perfora::io {
-class Hdf5Writer;
-}
 
 namespace perfora::optimize {
 
@@ -32,34 +30,15 @@ struct EvaluateOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
-/// What `perfora pack` reports, beside what evaluate reports.
-struct PackSummary {
-  std::int64_t discs = 0, perforations = 0;
-  double mean_diameter = 0.0, solid_fraction = 0.0, porosity = 0.0, bonds_per_disc = 0.0;
-  geometry::ThinnestWall thinnest_wall;
-  double thinnest_wall_discretised = 0.0;
-  double max_overlap_ratio = 0.0, coordination_number = 0.0, rattler_fraction = 0.0;
-};
-
 /// Layout, periodic packing, clipped packing of one design and replicate, with what was measured on them.
 struct PackedDesign {
   geometry::PerforationLayout layout;
   geometry::Packing periodic;
   geometry::Packing clipped;
-  PackSummary summary;
+  results::PackSummary summary;
 };
 
-/// status, summary, curve of one design and replicate.
-struct Evaluation {
-  solver::RunStatus status = solver::RunStatus::completed;
-  std::string reason;
-  Seeds::Effective seeds;
-  int replicate = 0;
-  PackSummary pack;
-  solver::Summary summary;
-  solver::Performance performance;
-  solver::History curve;
-};
+using results::Evaluation;
 
 /// Makes layout and packing (the packing is kept in memory per key and reused within this process; `packing_file` reads
 /// it from a file) and clips. Throws io::InputError; a packing that was not reached shows in periodic.quality.
@@ -78,10 +57,9 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
 /// packing, m.
 double mean_diameter_of(const DesignFile& design, const geometry::Packing& periodic);
 
-/// What every result file of a design begins and ends with: format, who wrote it and how, seeds; the resolved
-/// configuration and `summary`, the object that --json prints.
-void write_record(io::Hdf5Writer& file, const std::string& format, const DesignFile& design,
-                  const nlohmann::json& summary, const std::string& command_line);
+/// Where a result of `design` comes from: this program, the command, the seeds, the resolved configuration.
+results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
+                                  const std::string& command_line);
 
 /// P.h5 of a packed design (docs/formats.md), whole or not at all; `summary` is the object that `perfora pack --json`
 /// prints.
@@ -97,21 +75,11 @@ void require_packing_file(const DesignFile& design, const std::filesystem::path&
 std::optional<Evaluation> finished_evaluation(const DesignFile& design, const std::filesystem::path& run_file,
                                               int replicate);
 
-/// A JSON number, null where it was not reached (NaN or infinite).
-nlohmann::json number(double value);
+using results::number;
 
-/// JSON forms. SI, engineering strain, null for what was not reached, never NaN.
-nlohmann::json to_json(const PackSummary& summary);
-nlohmann::json to_json(const solver::Summary& summary);
-nlohmann::json to_json(const solver::Performance& performance);
-nlohmann::json to_json(const Seeds::Effective& seeds);
 /// schema "perfora.pack/1": what `perfora pack --json` prints; status "failed" when the packing was not reached.
 nlohmann::json pack_record(const PackedDesign& packed, const Seeds::Effective& seeds,
-                           const solver::Performance& performance);
-/// schema "perfora.evaluate/1"; `with_curve` adds strain and stress arrays.
-nlohmann::json to_json(const Evaluation& evaluation, bool with_curve);
-Evaluation evaluation_from_json(const nlohmann::json& record);
-
+                           const results::Performance& performance);
 /// One request of a search: the resolved design as TOML text, replicate, results_version. Equal requests have equal
 /// keys.
 struct Request {

@@ -110,7 +110,7 @@ std::vector<results::Statistic> statistics_of(const std::vector<MaterialTestRun>
 
 /// stopped before failed before completed, with the first reason.
 void sum_up(MaterialTests& tests) {
-  for (const solver::RunStatus status : {solver::RunStatus::stopped, solver::RunStatus::failed})
+  for (const results::RunStatus status : {results::RunStatus::stopped, results::RunStatus::failed})
     for (const MaterialTestRun& run : tests.runs)
       if (run.result.status == status) {
         tests.status = status;
@@ -172,7 +172,7 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
     packed[static_cast<std::size_t>(r)] = pack_design(sample, packing, r);
     const geometry::Packing& periodic = packed[static_cast<std::size_t>(r)].periodic;
     if (!periodic.quality.reached) {
-      tests.status = solver::RunStatus::failed;
+      tests.status = results::RunStatus::failed;
       tests.reason = "packing not reached: " + periodic.quality.reason;
       return tests;
     }

@@ -35,7 +35,7 @@ struct MaterialTestRun {
 /// strength_ratio (compressive/tensile), fracture_energy (J/m2), characteristic_length (E G/sigma_t^2, m), and the
 /// plane-strain reading young_modulus_plane_strain, poisson_ratio_plane_strain (docs/theory.md, "Material tests").
 struct MaterialTests {
-  solver::RunStatus status = solver::RunStatus::completed;
+  results::RunStatus status = results::RunStatus::completed;
   std::string reason;
   Seeds::Effective seeds;
   std::int64_t discs = 0, bonds = 0;  ///< of replicate 0
@@ -43,7 +43,7 @@ struct MaterialTests {
   geometry::Packing sample;           ///< of replicate 0
   std::vector<MaterialTestRun> runs;  ///< by replicate, then by kind
   std::vector<results::Statistic> statistics;
-  solver::Performance performance;
+  results::Performance performance;
 };
 
 /// The solid sample of a design: no perforations, a square cell of test.size (an imported packing keeps its cell).

@@ -1,11 +1,8 @@
 // What is here: the record and the file of material tests. What is not: the tests.
-#include <fmt/format.h>
-
-#include "geometry/packing_file.h"
-#include "io/hdf5.h"
 #include "optimize/evaluate/evaluation.h"
 #include "optimize/evaluate/material_tests.h"
-#include "solver/run_files.h"
+#include "results/formats.h"
+#include "results/material_file.h"
 
 namespace perfora::optimize {
 
@@ -25,7 +22,7 @@ json to_json(const MaterialTests& tests) {
     const solver::MaterialTestResult& r = run.result;
     runs.push_back({{"test", solver::material_test_name(r.kind)},
                     {"replicate", run.replicate},
-                    {"status", solver::status_name(r.status)},
+                    {"status", results::status_name(r.status)},
                     {"reason", r.reason},
                     {"strength", number(r.strength)},
                     {"peak_strain", number(r.peak_strain)},
@@ -40,8 +37,8 @@ json to_json(const MaterialTests& tests) {
                     {"rate", number(r.rate)},
                     {"time_step", number(r.time_step)}});
   }
-  return {{"schema", "perfora.test/1"},
-          {"status", solver::status_name(tests.status)},
+  return {{"schema", results::material_format},
+          {"status", results::status_name(tests.status)},
           {"reason", tests.reason},
           {"seeds", to_json(tests.seeds)},
           {"results_version", results_version},
@@ -57,26 +54,19 @@ json to_json(const MaterialTests& tests) {
 
 void write_material_tests(const std::filesystem::path& path, const DesignFile& design, const MaterialTests& tests,
                           const std::string& command_line) {
-  io::Hdf5Writer file(path);
-  write_record(file, "perfora.test/1", design, to_json(tests), command_line);
-  geometry::write_packing(file, "/sample", tests.sample);
+  results::MaterialResult result;
+  result.provenance = provenance_of(design, tests.seeds, command_line);
+  result.sample = tests.sample;
+  result.summary = to_json(tests);
   for (const MaterialTestRun& run : tests.runs) {
-    const std::string group =
-        fmt::format("/tests/{}-{:03d}", solver::material_test_name(run.result.kind), run.replicate);
-    const solver::MaterialCurve& curve = run.result.curve;
-    file.dataset(group + "/curve/strain", curve.strain);
-    file.dataset(group + "/curve/stress", curve.stress, 0, "Pa");
-    file.dataset(group + "/curve/lateral_strain", curve.lateral_strain);
-    file.dataset(group + "/curve/lateral_stress", curve.lateral_stress, 0, "Pa");
-    file.dataset(group + "/curve/damage", curve.damage, 0, "J/m");
-    file.dataset(group + "/curve/work", curve.work, 0, "J/m");
-    file.dataset(group + "/curve/cundall", curve.cundall, 0, "J/m");
-    file.dataset(group + "/curve/broken_bonds", curve.broken_bonds);
-    if (run.replicate != 0) continue;  // one picture a test is enough; its sample is the one in the file
-    solver::write_frame_group(file, group + "/frame", run.result.frame);
-    solver::write_events(file, group + "/events", run.result.events);
+    results::MaterialTest test{solver::material_test_name(run.result.kind), run.replicate, run.result.curve, {}, {}};
+    if (run.replicate == 0) {  // one picture a test is enough; its sample is the one in the file
+      test.frame = run.result.frame;
+      test.events = run.result.events;
+    }
+    result.tests.push_back(std::move(test));
   }
-  file.commit();
+  results::write_material_tests(path, result);
 }
 
 }  // namespace perfora::optimize

@@ -99,7 +99,7 @@ json to_json(const CalibrationResult& result) {
                       {"strength_ratio", number(p.ratio())},
                       {"of_chart", p.of_chart}});
   return {{"schema", "perfora.calibrate/1"},
-          {"status", solver::status_name(result.status)},
+          {"status", results::status_name(result.status)},
           {"reason", result.reason},
           {"results_version", results_version},
           {"found",

@@ -66,7 +66,7 @@ struct CalibrationTarget {
 };
 
 struct CalibrationResult {
-  solver::RunStatus status = solver::RunStatus::completed;
+  results::RunStatus status = results::RunStatus::completed;
   std::string reason;
   BondParameters found;
   std::vector<CalibrationTarget> targets;

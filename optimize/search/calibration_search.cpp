@@ -62,9 +62,9 @@ class Search {
     write_design();
     if (whole) whole = confirm();
     if (!whole) {
-      result_.status = solver::RunStatus::stopped;
+      result_.status = results::RunStatus::stopped;
       result_.reason = "signal";
-    } else if (result_.status == solver::RunStatus::completed) {
+    } else if (result_.status == results::RunStatus::completed) {
       result_.reason = result_.not_met.empty() ? "all wanted numbers were met" : result_.not_met.front();
     }
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
@@ -152,7 +152,7 @@ class Search {
   }
 
   CalibrationResult failed(const std::string& reason) {
-    result_.status = solver::RunStatus::failed;
+    result_.status = results::RunStatus::failed;
     result_.reason = reason;
     return std::move(result_);
   }
@@ -182,7 +182,7 @@ class Search {
     auto found = known_.find(key);
     if (found == known_.end()) {
       const MaterialTests tests = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression});
-      if (tests.status == solver::RunStatus::stopped || solver::stop_requested()) return nullptr;
+      if (tests.status == results::RunStatus::stopped || solver::stop_requested()) return nullptr;
       json event = {{"event", "point"}, {"key", key}, {"shear_ratio", shear_ratio}, {"rupture_delay", rupture_delay}};
       for (const MaterialTestRun& run : tests.runs)
         event[solver::material_test_name(run.result.kind)].push_back(number(run.result.strength));
@@ -228,7 +228,7 @@ class Search {
           test(material.critical_shear_displacement / material.critical_normal_stretch, material.rupture_delay, false);
       if (only == nullptr) return false;
       if (only->tensile.count > 0) return take(*only);
-      result_.status = solver::RunStatus::failed;
+      result_.status = results::RunStatus::failed;
       result_.reason = "no test gave a tensile strength";
       return true;
     }
@@ -250,7 +250,7 @@ class Search {
       if (smallest < keys_.tolerance) break;
     }
     if (smallest == std::numeric_limits<double>::infinity()) {
-      result_.status = solver::RunStatus::failed;
+      result_.status = results::RunStatus::failed;
       result_.reason = "no test gave both strengths";
       return true;
     }
@@ -326,19 +326,19 @@ class Search {
 
   /// All tests with the parameters found, held against what was wanted. False: stopped.
   bool confirm() {
-    if (result_.status == solver::RunStatus::failed) return true;
+    if (result_.status == results::RunStatus::failed) return true;
     const DesignFile design = design_with(result_.found);
     result_.confirmation = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression,
                                               MaterialTestKind::shear, MaterialTestKind::oedometric});
-    if (result_.confirmation.status == solver::RunStatus::stopped || solver::stop_requested()) return false;
+    if (result_.confirmation.status == results::RunStatus::stopped || solver::stop_requested()) return false;
     write_material_tests(options_.folder / "confirmation.h5", design, result_.confirmation, options_.command_line);
     const std::string suffix = keys_.reading == ElasticReading::plane_strain ? "_plane_strain" : "";
     compare("young_modulus", "young_modulus" + suffix, keys_.young_modulus);
     compare("poisson_ratio", "poisson_ratio" + suffix, keys_.poisson_ratio);
     compare("tensile_strength", "tensile_strength", keys_.tensile_strength);
     compare("compressive_strength", "compressive_strength", keys_.compressive_strength);
-    if (result_.confirmation.status == solver::RunStatus::failed) {
-      result_.status = solver::RunStatus::failed;
+    if (result_.confirmation.status == results::RunStatus::failed) {
+      result_.status = results::RunStatus::failed;
       result_.reason = "a test of the material found gave no strength: " + result_.confirmation.reason;
     }
     return true;

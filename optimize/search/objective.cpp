@@ -48,7 +48,7 @@ void describe(io::Schema& schema, TargetKeys& keys) {
 }
 
 bool usable(const Evaluation& evaluation) {
-  return evaluation.status == solver::RunStatus::completed && std::isfinite(evaluation.summary.plateau_stress);
+  return evaluation.status == results::RunStatus::completed && std::isfinite(evaluation.summary.plateau_stress);
 }
 
 Score score_of(const TargetKeys& target, std::span<const Evaluation* const> replicates) {

@@ -139,7 +139,7 @@ json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
   json record = {{"schema", "perfora.optimize/1"},
-                 {"status", solver::status_name(run.status())},
+                 {"status", results::status_name(run.status())},
                  {"reason", run.reason()},
                  {"seeds", to_json(study.start->design().seeds.effective(0))},
                  {"results_version", results_version},

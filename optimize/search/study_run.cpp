@@ -140,7 +140,9 @@ void StudyRun::run() {
   const auto begin = std::chrono::steady_clock::now();
   const bool done = queue_->run([this] { return wanted(); },
                                 [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
-  status_ = !done ? solver::RunStatus::stopped : plan_.best ? solver::RunStatus::completed : solver::RunStatus::failed;
+  status_ = !done        ? results::RunStatus::stopped
+            : plan_.best ? results::RunStatus::completed
+                         : results::RunStatus::failed;
   reason_ = done ? plan_.reason : "stopped by a signal; go on with --resume";
   queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -31,7 +31,7 @@ class StudyRun {
   const Plan& plan() const { return plan_; }
   const Answers& answers() const { return queue_->answers(); }
   CandidateBook& book() { return driver_.book(); }
-  solver::RunStatus status() const { return status_; }
+  results::RunStatus status() const { return status_; }
   std::string reason() const { return reason_; }
   /// Evaluations of a candidate for replicates [first, first + count) that are known, in order.
   std::vector<const Evaluation*> known(const Candidate& candidate, int first, int count);
@@ -49,7 +49,7 @@ class StudyRun {
   Driver driver_;
   Plan plan_;
   std::map<std::string, const Candidate*> candidates_;  ///< by request key, of everything asked
-  solver::RunStatus status_ = solver::RunStatus::completed;
+  results::RunStatus status_ = results::RunStatus::completed;
   std::string reason_;
   double seconds_ = 0.0;
 };

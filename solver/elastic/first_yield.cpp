@@ -34,9 +34,9 @@ FirstYield first_yield(const BondNetwork& network, const ElasticResponse& respon
     }
     if (s > (1.0 + near_first) * result.strain) continue;
     result.strain = std::min(result.strain, s);
-    yielding.push_back(
-        {b, s,
-         yields_in_tension(law, -s * unit.delta_n, network.strength[id]) ? BreakMode::tension : BreakMode::shear});
+    yielding.push_back({b, s,
+                        yields_in_tension(law, -s * unit.delta_n, network.strength[id]) ? results::BreakMode::tension
+                                                                                        : results::BreakMode::shear});
   }
   result.stress = response.stiffness[1][1] * result.strain;
   result.lateral_stress = response.stiffness[0][1] * result.strain;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "results/break_event.h"
 #include "solver/elastic/elastic.h"
 #include "solver/laws.h"
-#include "solver/response.h"
 
 namespace perfora::solver {
 
@@ -15,7 +15,7 @@ namespace perfora::solver {
 struct YieldingBond {
   std::int32_t bond = 0;  ///< its row in the network
   double strain = 0.0;    ///< engineering strain of the block, compression positive
-  BreakMode mode = BreakMode::tension;
+  results::BreakMode mode = results::BreakMode::tension;
 };
 
 /// First yield as the height shrinks at fixed width, every bond linear until then. A bond that would yield only beyond

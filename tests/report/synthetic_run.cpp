@@ -83,7 +83,7 @@ double stress_at(double strain, std::mt19937& engine) {
   return fall + spikes + densified;
 }
 
-void fill_history(RunResult& run, double until, std::mt19937& engine) {
+void fill_history(results::RunResult& run, double until, std::mt19937& engine) {
   const char* names[] = {"strain_yy",    "strain_yy_log", "stress_yy", "stress_xx", "stress_xy",
                          "broken_bonds", "fragments",     "contacts",  "time",      "external_work"};
   const char* units[] = {"", "", "Pa", "Pa", "Pa", "", "", "", "s", "J/m"};
@@ -108,7 +108,7 @@ void fill_history(RunResult& run, double until, std::mt19937& engine) {
   }
 }
 
-void make_bonds(RunResult& run, std::mt19937& engine) {
+void make_bonds(results::RunResult& run, std::mt19937& engine) {
   // Neighbours within 1.9 diameters, by brute force over a window of the list (rows of the lattice follow each other).
   const geometry::Packing& discs = run.clipped;
   const std::int32_t window = static_cast<std::int32_t>(2.2 * run.width / run.mean_diameter);
@@ -129,7 +129,8 @@ void make_bonds(RunResult& run, std::mt19937& engine) {
 }
 
 /// Fragment of each disc: the nearest of a few random seeds; numbered by falling size.
-std::vector<std::int32_t> break_up(const RunResult& run, int pieces, std::mt19937& engine, std::vector<double>& seeds) {
+std::vector<std::int32_t> break_up(const results::RunResult& run, int pieces, std::mt19937& engine,
+                                   std::vector<double>& seeds) {
   seeds.clear();
   for (int p = 0; p < 2 * pieces; ++p) seeds.push_back(uniform(engine) * run.width);
   std::vector<std::int32_t> nearest;
@@ -164,8 +165,8 @@ std::vector<std::int32_t> break_up(const RunResult& run, int pieces, std::mt1993
   return nearest;
 }
 
-Frame make_frame(const RunResult& run, int number, double strain, std::mt19937& engine) {
-  Frame frame;
+results::Frame make_frame(const results::RunResult& run, int number, double strain, std::mt19937& engine) {
+  results::Frame frame;
   frame.info = {fmt::format("{:05d}", number), strain, strain / 2.0, run.width, 0.0, run.height * (1.0 - strain)};
   const int pieces = strain <= peak_strain ? 1 : 1 + static_cast<int>(strain * 160.0);
   std::vector<double> seeds;
@@ -201,7 +202,7 @@ Frame make_frame(const RunResult& run, int number, double strain, std::mt19937& 
   return frame;
 }
 
-void fill_events(RunResult& run, double until, std::mt19937& engine) {
+void fill_events(results::RunResult& run, double until, std::mt19937& engine) {
   for (std::int32_t b = 0; b < static_cast<std::int32_t>(run.bonds.size()); b += 17) {
     const double strain = peak_strain + (until - peak_strain) * uniform(engine);
     run.events.strain.push_back(strain);
@@ -221,7 +222,7 @@ void fill_events(RunResult& run, double until, std::mt19937& engine) {
   }
 }
 
-void fill_summary(RunResult& run, double until) {
+void fill_summary(results::RunResult& run, double until) {
   run.summary = {{"schema", "perfora.evaluate/1"},
                  {"status", "completed"},
                  {"reason", "reached the wanted strain"},
@@ -247,7 +248,7 @@ void fill_summary(RunResult& run, double until) {
 SyntheticRun make_run(double size, int holes, double mean_diameter, double until, unsigned seed) {
   std::mt19937 engine(seed);
   SyntheticRun synthetic;
-  RunResult& run = synthetic.run;
+  results::RunResult& run = synthetic.run;
   run.path = "synthetic.h5";
   run.status = "completed";
   run.reason = "reached the wanted strain";
@@ -280,7 +281,7 @@ std::filesystem::path fresh_folder(const std::string& name) {
 
 namespace {
 
-void write_frame(io::Hdf5Writer& file, const Frame& frame) {
+void write_frame(io::Hdf5Writer& file, const results::Frame& frame) {
   const std::string group = "/frames/" + frame.info.name;
   file.group(group);
   file.attribute(group, "strain", frame.info.strain);
@@ -296,7 +297,7 @@ void write_frame(io::Hdf5Writer& file, const Frame& frame) {
   file.dataset(group + "/bonds/damage", frame.bond_damage);
 }
 
-void write_events(io::Hdf5Writer& file, const Events& events) {
+void write_events(io::Hdf5Writer& file, const results::Events& events) {
   file.dataset("/events/time", events.time, 0, "s");
   file.dataset("/events/strain", events.strain);
   file.dataset("/events/x", events.x, 0, "m");
@@ -311,7 +312,7 @@ void write_events(io::Hdf5Writer& file, const Events& events) {
 }  // namespace
 
 void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path) {
-  const RunResult& run = synthetic.run;
+  const results::RunResult& run = synthetic.run;
   io::Hdf5Writer file(path);
   const std::pair<const char*, std::string> texts[] = {{"format", "perfora.run/1"},
                                                        {"status", run.status},
@@ -330,7 +331,7 @@ void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path)
   file.attribute("/", "height", run.height);
   file.attribute("/", "mean_diameter", run.mean_diameter);
   for (const Column& column : run.history) file.dataset("/history/" + column.name, column.values, 0, column.units);
-  for (const Frame& frame : synthetic.frames) write_frame(file, frame);
+  for (const results::Frame& frame : synthetic.frames) write_frame(file, frame);
   write_events(file, run.events);
   file.dataset("/bonds/pairs", run.bonds.pairs, 2);
   file.dataset("/bonds/rest_length", run.bonds.rest_length, 0, "m");
@@ -344,7 +345,7 @@ void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path)
 }
 
 void write_pack(const SyntheticRun& synthetic, const std::filesystem::path& path) {
-  const RunResult& run = synthetic.run;
+  const results::RunResult& run = synthetic.run;
   io::Hdf5Writer file(path);
   file.attribute("/", "format", std::string("perfora.pack/1"));
   file.attribute("/", "program_version", run.provenance.program_version);

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "report/run_result.h"
+#include "results/run_file.h"
 
 namespace perfora::report::testing {
 
 struct SyntheticRun {
-  RunResult run;
-  std::vector<Frame> frames;
+  results::RunResult run;
+  std::vector<results::Frame> frames;
 };
 
 /// A square block of `size` (m) with `holes` x `holes` perforations of 20 mm per 25 mm of pitch (scaled with the size),

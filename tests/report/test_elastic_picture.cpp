@@ -19,8 +19,8 @@ using testing::fresh_folder;
 using ::testing::HasSubstr;
 
 /// A row of four discs that yield at 1, 2 and 4 per mille; the last never.
-ElasticResult row_of_discs() {
-  ElasticResult elastic;
+results::ElasticResult row_of_discs() {
+  results::ElasticResult elastic;
   elastic.clipped.width = elastic.clipped.height = elastic.layout.width = elastic.layout.height = 4e-3;
   elastic.clipped.x = {0.5e-3, 1.5e-3, 2.5e-3, 3.5e-3};
   elastic.clipped.y.assign(4, 2e-3);
@@ -31,7 +31,7 @@ ElasticResult row_of_discs() {
   return elastic;
 }
 
-std::filesystem::path written(const std::string& name, const ElasticResult& elastic) {
+std::filesystem::path written(const std::string& name, const results::ElasticResult& elastic) {
   const auto path = fresh_folder(name) / "E.h5";
   io::Hdf5Writer file(path);
   file.attribute("/", "format", "perfora.elastic/1");
@@ -49,7 +49,7 @@ std::filesystem::path written(const std::string& name, const ElasticResult& elas
 
 std::string refusal(const std::filesystem::path& path) {
   try {
-    static_cast<void>(read_elastic(path));
+    static_cast<void>(results::read_elastic(path));
   } catch (const io::InputError& error) {
     return error.what();
   }
@@ -57,8 +57,8 @@ std::string refusal(const std::filesystem::path& path) {
 }
 
 TEST(ElasticFile, ComesBackAndIsChecked) {
-  ElasticResult elastic = row_of_discs();
-  const ElasticResult back = read_elastic(written("elastic", elastic));
+  results::ElasticResult elastic = row_of_discs();
+  const results::ElasticResult back = results::read_elastic(written("elastic", elastic));
   EXPECT_EQ(back.disc_strain, elastic.disc_strain);
   EXPECT_EQ(back.first_bonds.x, elastic.first_bonds.x);
   elastic.disc_strain.pop_back();

@@ -79,7 +79,7 @@ TEST(Numbers, AreWrittenForPeople) {
 
 // Two discs of fragments 1 and 2 side by side must not share a colour; fragment 0 has none; crumbs have theirs.
 TEST(FragmentColours, DifferWhereFragmentsTouch) {
-  Frame frame;
+  results::Frame frame;
   frame.info.h_xx = frame.info.h_yy = 0.1;
   std::vector<double> radius;
   const auto add = [&](double x, double y, std::int32_t fragment) {
@@ -190,7 +190,7 @@ TEST(PlotRun, TakesRunsThatEndedEarlyOrHaveNoFrames) {
 
 TEST(PlotRun, SnapshotsAreIntactPeakAndLast) {
   EXPECT_THAT(snapshot_frames(small_run().run), ::testing::ElementsAre(0, 1, 7));
-  RunResult run;
+  results::RunResult run;
   EXPECT_TRUE(snapshot_frames(run).empty());
   run.frames.resize(1);
   EXPECT_THAT(snapshot_frames(run), ::testing::ElementsAre(0));
@@ -233,7 +233,7 @@ TEST(Study, AnEmptyAndAFullPictureAreDrawn) {
   for (int k = 1; k <= 30; ++k)
     picture.evaluations.push_back({k, "arm " + std::to_string(k % 12), {1.0}, k % 7 ? 10.0 / k : NAN, k % 5 != 0});
   picture.best_number = 29;
-  picture.best.push_back({small_run().run.column("strain_yy"), small_run().run.column("stress_yy")});
+  picture.best.push_back({small_run().run.history.strain_yy, small_run().run.history.stress_yy});
   picture.start.push_back({{}, {}});
   picture.best_layout = picture.start_layout = small_run().run.layout;
   picture.best_plateau = 0.025e6;
@@ -258,7 +258,7 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   SweepPicture picture;
   picture.title = "Sweep";
   picture.measures = {"plateau_stress"};
-  const StudyCurve curve{small_run().run.column("strain_yy"), small_run().run.column("stress_yy")};
+  const StudyCurve curve{small_run().run.history.strain_yy, small_run().run.history.stress_yy};
   SweepGroup group;
   group.label = "material.horizon";
   group.places = {"2", "3"};
@@ -305,7 +305,7 @@ TEST(Correlation, DrawsAPointACase) {
 TEST(Collapse, ARowARun) {
   const auto folder = fresh_folder("collapse");
   write_run(small_run(), folder / "R.h5");
-  const RunResult run = read_run(folder / "R.h5");
+  const results::RunResult run = results::read_run(folder / "R.h5");
   plot_collapse({{"one", run}}, folder / "one.png", {});
   plot_collapse({{"one", run}, {"two", run}}, folder / "two.png", {});
   const Image one(folder / "one.png"), two(folder / "two.png");
@@ -330,7 +330,7 @@ TEST(Comparison, ColoursSayTheDesign) {
   constexpr unsigned blue = 0x0072b2, orange = 0xe69f00, light_blue = 0x80b9d9;  // first two of the series; half white
   const auto folder = fresh_folder("comparison");
   write_run(small_run(), folder / "R.h5");
-  const RunResult run = read_run(folder / "R.h5");
+  const results::RunResult run = results::read_run(folder / "R.h5");
   const auto count = [&](const std::vector<LabelledRun>& runs, unsigned colour) {
     plot_comparison(runs, folder / "c.png", {});
     const Image image(folder / "c.png");
@@ -358,8 +358,8 @@ TEST(Comparison, ColoursSayTheDesign) {
 TEST(Comparison, AxisIsThatOfTheFirstPeaks) {
   const auto folder = fresh_folder("comparison-axis");
   write_run(small_run(), folder / "R.h5");
-  const RunResult whole = read_run(folder / "R.h5");
-  RunResult stopped = whole;
+  const results::RunResult whole = results::read_run(folder / "R.h5");
+  results::RunResult stopped = whole;
   stopped.summary.erase("first_peak_stress");
   for (Column& column : stopped.history)
     for (double& value : column.values)

@@ -7,7 +7,9 @@
 
 #include "io/error.h"
 #include "io/hdf5.h"
-#include "report/run_result.h"
+#include "results/pack_file.h"
+#include "results/run_file.h"
+#include "results/summary_numbers.h"
 #include "synthetic_run.h"
 
 namespace perfora::report {
@@ -25,8 +27,8 @@ const SyntheticRun& small_run() {
 
 std::string refusal(const std::filesystem::path& path) {
   try {
-    const RunResult run = read_run(path);
-    for (std::size_t k = 0; k < run.frames.size(); ++k) read_frame(run, k);
+    const results::RunResult run = results::read_run(path);
+    for (std::size_t k = 0; k < run.frames.size(); ++k) results::read_frame(run, k);
   } catch (const io::InputError& error) {
     return error.what();
   }
@@ -38,11 +40,11 @@ TEST(ReadRun, GivesBackWhatWasWritten) {
   const SyntheticRun& written = small_run();
   const auto path = fresh_folder("round-trip") / "R.h5";
   write_run(written, path);
-  const RunResult run = read_run(path);
+  const results::RunResult run = results::read_run(path);
   EXPECT_EQ(run.status, "completed");
   EXPECT_EQ(run.width, 0.05);
   EXPECT_EQ(run.mean_diameter, 1e-3);
-  EXPECT_EQ(run.column("stress_yy"), written.run.column("stress_yy"));
+  EXPECT_EQ(run.history.stress_yy, written.run.history.stress_yy);
   EXPECT_EQ(run.history.front().name, "strain_yy");
   EXPECT_EQ(run.bonds.pairs, written.run.bonds.pairs);
   EXPECT_EQ(run.events.mode, written.run.events.mode);
@@ -52,7 +54,7 @@ TEST(ReadRun, GivesBackWhatWasWritten) {
   EXPECT_EQ(run.config, written.run.config);
   ASSERT_EQ(run.frames.size(), written.frames.size());
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    const Frame frame = read_frame(run, k);
+    const results::Frame frame = results::read_frame(run, k);
     EXPECT_EQ(frame.info.strain, written.frames[k].info.strain);
     EXPECT_EQ(frame.position, written.frames[k].position);
     EXPECT_EQ(frame.fragment, written.frames[k].fragment);
@@ -64,7 +66,7 @@ TEST(ReadRun, UnknownColumnNamesTheNearest) {
   const auto path = fresh_folder("column") / "R.h5";
   write_run(small_run(), path);
   try {
-    read_run(path).column("stres_yy");
+    results::read_run(path).history.stres_yy;
     FAIL();
   } catch (const io::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean stress_yy?"));
@@ -119,30 +121,30 @@ TEST(ReadRun, RefusesIndicesOutsideTheDiscs) {
 TEST(ReadPack, GivesBackWhatWasWritten) {
   const auto path = fresh_folder("pack") / "P.h5";
   write_pack(small_run(), path);
-  const PackResult pack = read_pack(path);
+  const results::PackResult pack = results::read_pack(path);
   EXPECT_EQ(pack.clipped.x, small_run().run.clipped.x);
   EXPECT_EQ(pack.layout.perforations.size(), 4u);
-  EXPECT_EQ(summary_number(pack.summary, "thinnest_wall"), 0.005);
+  EXPECT_EQ(results::summary_number(pack.summary, "thinnest_wall"), 0.005);
 }
 
 TEST(Summary, NullAndMissingAreNotReached) {
   const nlohmann::json summary = {{"a", nullptr}, {"b", 2.5}, {"summary", {{"c", 3}}}};
-  EXPECT_EQ(summary_number(summary, "a"), std::nullopt);
-  EXPECT_EQ(summary_number(summary, "d"), std::nullopt);
-  EXPECT_EQ(summary_number(summary, "b"), 2.5);
-  EXPECT_EQ(summary_number(summary, "c"), 3.0);
-  EXPECT_EQ(plateau_window({{"plateau_window", {0.2, 0.4}}}), std::pair(0.2, 0.4));
-  EXPECT_EQ(plateau_window({{"plateau_window", nullptr}}), std::nullopt);
+  EXPECT_EQ(results::summary_number(summary, "a"), std::nullopt);
+  EXPECT_EQ(results::summary_number(summary, "d"), std::nullopt);
+  EXPECT_EQ(results::summary_number(summary, "b"), 2.5);
+  EXPECT_EQ(results::summary_number(summary, "c"), 3.0);
+  EXPECT_EQ(results::plateau_window({{"plateau_window", {0.2, 0.4}}}), std::pair(0.2, 0.4));
+  EXPECT_EQ(results::plateau_window({{"plateau_window", nullptr}}), std::nullopt);
 }
 
 // 17 digits give every double back (IEEE 754).
 TEST(HistoryCsv, EveryNumberComesBack) {
-  const RunResult& run = small_run().run;
-  const std::string text = history_csv(run);
+  const results::RunResult& run = small_run().run;
+  const std::string text = results::history_csv(run);
   EXPECT_THAT(text, ::testing::StartsWith("strain_yy,strain_yy_log,stress_yy,"));
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(run.rows() + 1));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(run.history.rows() + 1));
   const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
-  EXPECT_EQ(std::strtod(text.c_str() + last, nullptr), run.column("strain_yy").back());
+  EXPECT_EQ(std::strtod(text.c_str() + last, nullptr), run.history.strain_yy.back());
 }
 
 }  // namespace

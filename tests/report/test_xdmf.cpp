@@ -44,8 +44,8 @@ TEST(Xdmf, EveryItemIsADatasetOfThatShape) {
   EXPECT_THAT(text, ::testing::HasSubstr(fmt::format("{:.17g}", run.frames[1].info.time)));
 }
 
-// Bonds across the boundary are lines through the whole block: every line left is shorter than the longest bond of the
-// synthetic run, 1.9 diameters.
+// results::Bonds across the boundary are lines through the whole block: every line left is shorter than the longest
+// bond of the synthetic run, 1.9 diameters.
 TEST(Xdmf, NoLineCrossesTheBlock) {
   const auto folder = fresh_folder("xdmf-lines");
   const testing::SyntheticRun run = testing::make_run(0.05, 2, 1e-3, 0.0);

@@ -286,7 +286,7 @@ TEST(FirstYield, TriangularLattice) {
   EXPECT_NEAR(y.lateral_stress, weak * strain * r.stiffness[0][1], 1e-9 * y.stress);
   ASSERT_EQ(y.first_bonds.size(), 1u);
   EXPECT_EQ(y.first_bonds[0].bond, 7);
-  EXPECT_EQ(y.first_bonds[0].mode, BreakMode::shear);
+  EXPECT_EQ(y.first_bonds[0].mode, results::BreakMode::shear);
   for (std::int32_t d = 0; d < n * n; ++d) {
     const bool on_weak_bond = d == network.i[7] || d == network.j[7];
     EXPECT_NEAR(y.disc_strain[static_cast<std::size_t>(d)], (on_weak_bond ? weak : 1.0) * strain, 1e-9 * strain);

@@ -39,7 +39,7 @@ TEST(MaterialTests, ModuliAgreeWithIsotropicElasticity) {
   const auto shear = run(MaterialTestKind::shear, sample, {});
   const auto oedometric = run(MaterialTestKind::oedometric, sample, {});
   for (const auto* result : {&tension, &compression, &shear, &oedometric}) {
-    EXPECT_EQ(result->status, RunStatus::completed) << result->reason;
+    EXPECT_EQ(result->status, results::RunStatus::completed) << result->reason;
     EXPECT_LT(result->energy_residual, 5e-3) << material_test_name(result->kind);
     EXPECT_GT(result->broken_bonds, 10);
   }
@@ -91,7 +91,7 @@ TEST(MaterialTests, FractureEnergyIsThatOfTheBondsAcross) {
     for (const double l : network.rest_length) lengths += l;
     const double expected = rigid_opening_work(material, lengths / (side * side));
     const MaterialTestResult result = run_material_test(request);
-    ASSERT_EQ(result.status, RunStatus::completed) << result.reason;
+    ASSERT_EQ(result.status, results::RunStatus::completed) << result.reason;
     EXPECT_GT(result.crack_length, 0.9 * side);
     EXPECT_GT(result.fracture_energy, expected / 2.0);
     EXPECT_LT(result.fracture_energy, expected * 2.0);
@@ -144,8 +144,8 @@ TEST(MaterialTests, YieldStrainOfTensionIsTheStretchOfAnAlignedBond) {
               2.0 * options.material.critical_shear_displacement / length, 1e-4 * 1.5e-2);
 }
 
-BreakEvent broken_at(double x, double y) {
-  BreakEvent event;
+results::BreakEvent broken_at(double x, double y) {
+  results::BreakEvent event;
   event.x = x;
   event.y = y;
   return event;
@@ -155,23 +155,23 @@ BreakEvent broken_at(double x, double y) {
 // cracks add up; a crack over the periodic edge is one.
 TEST(CrackLength, HandMadeCracks) {
   constexpr double side = 20e-3, link = 0.5e-3, shortest = 4.5e-3;
-  const auto line = [&](double x0, double x1, double y, std::vector<BreakEvent>& to) {
+  const auto line = [&](double x0, double x1, double y, std::vector<results::BreakEvent>& to) {
     for (double x = x0; x < x1; x += 0.2e-3) to.push_back(broken_at(x, y));
   };
-  std::vector<BreakEvent> whole;
+  std::vector<results::BreakEvent> whole;
   line(0.0, side, 5e-3, whole);
   EXPECT_NEAR(projected_crack_length(whole, side, side, 0, link, shortest), side, 1e-9);
   EXPECT_EQ(projected_crack_length(whole, side, side, 1, link, shortest), 0.0);
-  std::vector<BreakEvent> half;
+  std::vector<results::BreakEvent> half;
   line(0.0, 0.5 * side, 5e-3, half);
   EXPECT_NEAR(projected_crack_length(half, side, side, 0, link, shortest), 0.5 * side, 1.01 * link);
-  std::vector<BreakEvent> two = whole;
+  std::vector<results::BreakEvent> two = whole;
   line(0.0, 0.5 * side, 15e-3, two);
   EXPECT_NEAR(projected_crack_length(two, side, side, 0, link, shortest), 1.5 * side, 1.01 * link);
-  std::vector<BreakEvent> flaw;
+  std::vector<results::BreakEvent> flaw;
   line(0.0, 2e-3, 5e-3, flaw);
   EXPECT_EQ(projected_crack_length(flaw, side, side, 0, link, shortest), 0.0);
-  std::vector<BreakEvent> over_the_edge;
+  std::vector<results::BreakEvent> over_the_edge;
   line(side - 3e-3, side, 5e-3, over_the_edge);
   line(0.0, 3e-3, 5e-3, over_the_edge);
   EXPECT_NEAR(projected_crack_length(over_the_edge, side, side, 0, link, shortest), 6e-3, 2.0 * link);

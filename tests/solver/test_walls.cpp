@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "io/hdf5.h"
+#include "solver/checkpoint.h"
 #include "solver/run.h"
-#include "solver/run_files.h"
 #include "tests/solver/bounded_block.h"
 #include "tests/solver/closed_ledger.h"
 
@@ -214,7 +214,7 @@ TEST(Walls, CheckpointGoesOnWithTheSameBits) {
 }
 
 /// A whole run of a small block; its history.
-History short_run(TopBottom top_bottom, Sides sides, const std::filesystem::path& file) {
+results::History short_run(TopBottom top_bottom, Sides sides, const std::filesystem::path& file) {
   const geometry::Packing packing = test::jittered_packing(12, pitch, 6);
   const geometry::PerforationLayout layout = test::no_holes(packing);
   RunRequest request;
@@ -233,7 +233,7 @@ TEST(Walls, ColumnsOnlyWhereThereAreWalls) {
   const auto file = std::filesystem::temp_directory_path() / "perfora-test-walls-run.h5";
   for (const TopBottom top_bottom : {TopBottom::periodic, TopBottom::platens})
     for (const Sides sides : {Sides::periodic, Sides::walls, Sides::free}) {
-      const History h = short_run(top_bottom, sides, file);
+      const results::History h = short_run(top_bottom, sides, file);
       ASSERT_EQ(h.rows(), 7u);
       const bool platens = top_bottom == TopBottom::platens, walls = sides == Sides::walls;
       EXPECT_EQ(h.platen_stress_bottom.size(), platens ? 7u : 0u);

@@ -29,7 +29,7 @@ TEST_P(Ledger, ClosesOverCrushing) {
   options.loading.until = 0.60;
   options.loading.transits = 6.0;  // fast: more kinetic energy than a user's run, a harder case
   const solver::Response r = crush(perforated(thorough ? 25e-3 : 12.5e-3, 1, GetParam()), options);
-  ASSERT_EQ(r.summary.status, solver::RunStatus::completed) << r.summary.reason;
+  ASSERT_EQ(r.summary.status, results::RunStatus::completed) << r.summary.reason;
   EXPECT_GT(r.summary.broken_bonds, r.bonds / 20);
   expect_at_most("residual over largest work, seed " + std::to_string(GetParam()), r.summary.energy_residual, 0.005);
 }

@@ -65,10 +65,10 @@ int main(int, char** arguments) {
     misbehave(request.replicate, folder);
     Evaluation evaluation = mode == "formula" ? fake_evaluation(request) : failed_evaluation(request, "");
     if (mode == "numbers") {
-      evaluation.status = perfora::solver::RunStatus::completed;
+      evaluation.status = perfora::results::RunStatus::completed;
       evaluation.summary.plateau_stress = 1000.0 * request.replicate;
     }
-    if (request.replicate == 111) evaluation.status = perfora::solver::RunStatus::stopped;
+    if (request.replicate == 111) evaluation.status = perfora::results::RunStatus::stopped;
     std::cout << to_json(evaluation, true).dump() << std::endl;
   }
 }

@@ -37,7 +37,7 @@ class Ensembles : public ::testing::Test {
 TEST_F(Ensembles, GrowAndKeepWhatIsFinished) {
   const DesignFile file = design();
   const Ensemble two = evaluate_ensemble(file, options(2));
-  EXPECT_EQ(two.status, solver::RunStatus::completed);
+  EXPECT_EQ(two.status, results::RunStatus::completed);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "ensemble/replicate-001.h5"));
   EnsembleOptions more = options(3);
   more.resume = true;
@@ -70,7 +70,7 @@ TEST_F(Ensembles, OnesStoppedGoOn) {
   EnsembleOptions stopping = options(2);
   stopping.evaluate.wall_time_limit = 1e-9;
   const Ensemble stopped = evaluate_ensemble(design(), stopping);
-  EXPECT_EQ(stopped.status, solver::RunStatus::stopped);
+  EXPECT_EQ(stopped.status, results::RunStatus::stopped);
   EXPECT_TRUE(stopped.replicates.empty());
   EnsembleOptions resuming = options(2);
   resuming.resume = true;

@@ -59,7 +59,7 @@ TEST(InProcess, AnswersEverythingWithAnyNumberOfWorkers) {
     EXPECT_EQ(executor->workers(), workers);
     const auto answers = ask(*executor, {1, 2, 3, 4, 5});
     EXPECT_EQ(answers.at("5").evaluation.replicate, 5);
-    EXPECT_EQ(answers.at("3").evaluation.status, solver::RunStatus::failed);
+    EXPECT_EQ(answers.at("3").evaluation.status, results::RunStatus::failed);
     EXPECT_EQ(answers.at("3").evaluation.reason, "words");
   }
 }
@@ -99,7 +99,7 @@ TEST(Children, ACrashCostsOneEvaluation) {
                                                    {"109", "signal 11"},    {"111", "told to stop"}};
   for (const auto& [key, reason] : reasons) {
     const Answer& answer = answers.at(key);
-    EXPECT_EQ(answer.evaluation.status, solver::RunStatus::failed) << key;
+    EXPECT_EQ(answer.evaluation.status, results::RunStatus::failed) << key;
     EXPECT_EQ(answer.attempts, 2) << key;
     EXPECT_NE(answer.evaluation.reason.find(reason), std::string::npos) << answer.evaluation.reason;
   }
@@ -119,7 +119,7 @@ TEST(Children, AreKilledAtTheTimeLimit) {
   options.time_limit = 0.3;
   const auto executor = make_child_executor(options);
   const auto answers = ask(*executor, {1, 107, 2});
-  EXPECT_EQ(answers.at("107").evaluation.status, solver::RunStatus::failed);
+  EXPECT_EQ(answers.at("107").evaluation.status, results::RunStatus::failed);
   EXPECT_NE(answers.at("107").evaluation.reason.find("more than 0.3 s"), std::string::npos);
   EXPECT_EQ(answers.at("2").evaluation.summary.plateau_stress, 2000.0);
 }

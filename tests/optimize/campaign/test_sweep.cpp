@@ -25,7 +25,7 @@ Evaluation formula(const Request& request) {
   const double horizon = number_in(entries, "material.horizon");
   if (horizon == 2.25) return failed_evaluation(request, "unstable step");
   Evaluation evaluation;
-  evaluation.status = solver::RunStatus::completed;
+  evaluation.status = results::RunStatus::completed;
   evaluation.replicate = request.replicate;
   evaluation.summary.plateau_stress =
       1e5 * (horizon + request.replicate) + 1e4 * number_in(entries, "material.rupture_delay");
@@ -171,7 +171,7 @@ TEST_F(SweepTest, ACaseThatCannotBeLaidStaysInTheTable) {
   ASSERT_EQ(run.sweep().cases.size(), 2U);
   EXPECT_NE(run.sweep().cases[1].problem.find("hole"), std::string::npos) << run.sweep().cases[1].problem;
   run.run();
-  EXPECT_EQ(run.status(), solver::RunStatus::completed);
+  EXPECT_EQ(run.status(), results::RunStatus::completed);
   EXPECT_EQ(asked, 3);
   write_results(run);
   EXPECT_TRUE(to_json(run).at("cases").at(1).at("problem").is_string());
@@ -269,7 +269,7 @@ TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
     stopping.stop_requested = [&] { return ++seen > 5; };
     SweepRun run(sweep(text), stopping);
     run.run();
-    EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+    EXPECT_EQ(run.status(), results::RunStatus::stopped);
     write_results(run);
   }
   std::ofstream(folder / "stopped/journal.jsonl", std::ios::app)
@@ -338,7 +338,7 @@ TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
             EXPECT_EQ(request.run_file.parent_path(), std::filesystem::absolute(writing.folder / "runs"));
             std::ofstream(request.run_file) << "run";
             Evaluation evaluation = formula(request);
-            if (request.replicate == 1) evaluation.status = solver::RunStatus::stopped;
+            if (request.replicate == 1) evaluation.status = results::RunStatus::stopped;
             return evaluation;
           },
           1);
@@ -346,7 +346,7 @@ TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
     SweepRun run(sweep(sweep_text(tables, std::string("replicates = 2\nrun_files = ") + (keep ? "true" : "false"))),
                  writing);
     run.run();
-    EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+    EXPECT_EQ(run.status(), results::RunStatus::stopped);
     const SweepCase& one = run.sweep().cases[0];
     const auto file = [&](int replicate) {
       return writing.folder / EvaluationQueue::run_file(one.request(replicate).key());

@@ -30,7 +30,7 @@ class Elastic : public ::testing::Test {
 TEST_F(Elastic, FileAndRecordHoldTheSame) {
   const DesignFile file = design();
   const ElasticAnswer answer = elastic_answer(file, {}, 0);
-  ASSERT_EQ(answer.status, solver::RunStatus::completed);
+  ASSERT_EQ(answer.status, results::RunStatus::completed);
   const nlohmann::json record = to_json(answer);
   write_elastic_file(folder_ / "e.h5", file, answer, record, "perfora evaluate --elastic");
   const io::Hdf5Reader written(folder_ / "e.h5");
@@ -73,7 +73,7 @@ TEST_F(Elastic, WithoutBondsThereIsNoBlock) {
 
 TEST(ElasticRecord, WhatWasNotReachedIsNull) {
   ElasticAnswer answer;
-  answer.status = solver::RunStatus::failed;
+  answer.status = results::RunStatus::failed;
   answer.reason = "packing not reached: too dense";
   const nlohmann::json record = to_json(answer);
   EXPECT_EQ(record["status"], "failed");

@@ -30,7 +30,7 @@ class Evaluating : public ::testing::Test {
 
 TEST_F(Evaluating, GivesAResultThatIsWhole) {
   const Evaluation evaluation = evaluate_design(design(), {}, 0);
-  EXPECT_EQ(evaluation.status, solver::RunStatus::completed);
+  EXPECT_EQ(evaluation.status, results::RunStatus::completed);
   EXPECT_EQ(evaluation.pack.perforations, 1);
   EXPECT_NEAR(evaluation.pack.thinnest_wall.thickness, 0.006, 1e-12);
   EXPECT_NEAR(evaluation.summary.final_strain, 0.01, 1e-9);
@@ -96,7 +96,7 @@ TEST_F(Evaluating, AWallTimeLimitStopsAndResumeGivesTheSameBits) {
   options.run_file = folder_ / "r.h5";
   options.wall_time_limit = 1e-9;
   const Evaluation stopped = evaluate_design(file, options, 0);
-  EXPECT_EQ(stopped.status, solver::RunStatus::stopped);
+  EXPECT_EQ(stopped.status, results::RunStatus::stopped);
   EXPECT_FALSE(finished_evaluation(file, options.run_file, 0).has_value());
   options.wall_time_limit = 0.0;
   options.resume = true;

@@ -96,13 +96,13 @@ TEST(Json, ABlockWithoutPerforationsHasNoWall) {
   const auto record = to_json(evaluation, false);
   EXPECT_TRUE(record["thinnest_wall"].is_null());
   EXPECT_TRUE(record["thinnest_wall_pair"].is_null());
-  EXPECT_EQ(evaluation_from_json(record).pack.thinnest_wall.first, -1);
+  EXPECT_EQ(results::evaluation_from_json(record).pack.thinnest_wall.first, -1);
 }
 
 TEST(Json, ComesBackWithTheSameBits) {
   const Evaluation evaluation = example();
   const auto record = to_json(evaluation, true);
-  const Evaluation again = evaluation_from_json(nlohmann::json::parse(record.dump()));
+  const Evaluation again = results::evaluation_from_json(nlohmann::json::parse(record.dump()));
   EXPECT_EQ(again.summary.plateau_stress, evaluation.summary.plateau_stress);
   EXPECT_EQ(again.summary.steps, evaluation.summary.steps);
   EXPECT_EQ(again.summary.broken_in_shear, 7);
@@ -123,7 +123,7 @@ TEST(Json, FailureLeavesNothingReached) {
   EXPECT_TRUE(record["first_peak_stress"].is_null());
   EXPECT_TRUE(record["plateau_stress"].is_null());
   EXPECT_TRUE(record["solid_fraction"].is_null());
-  EXPECT_EQ(evaluation_from_json(record).status, solver::RunStatus::failed);
+  EXPECT_EQ(results::evaluation_from_json(record).status, results::RunStatus::failed);
 }
 
 }  // namespace

@@ -62,13 +62,13 @@ TEST(Request, ARunFileIsGoneOnWith) {
   const DesignFile design(folder.file("design.toml", small_design));
   Request request = make_request(design, 0, 0.01);
   const Evaluation straight = evaluate_request(request, 1);
-  ASSERT_EQ(straight.status, solver::RunStatus::completed) << straight.reason;
+  ASSERT_EQ(straight.status, results::RunStatus::completed) << straight.reason;
   request.run_file = folder / "run.h5";
   std::filesystem::create_directories(folder / "run.part");
   std::ofstream(folder / "run.part/checkpoint.h5") << "not one";
   std::ofstream(folder / "run.part/config.toml") << "# results_version 0\n";
   const Evaluation written = evaluate_request(request, 1);
-  EXPECT_EQ(written.status, solver::RunStatus::completed) << written.reason;
+  EXPECT_EQ(written.status, results::RunStatus::completed) << written.reason;
   EXPECT_TRUE(std::filesystem::exists(request.run_file));
   EXPECT_FALSE(std::filesystem::exists(folder / "run.part"));
   const Evaluation read = evaluate_request(request, 1);
@@ -83,7 +83,7 @@ TEST(Request, ADesignThatCannotBeLaidOutFailsWithItsReason) {
   DesignFile design;
   design.design().layout.diameter = 0.024;  // walls of 1 mm
   const Evaluation evaluation = evaluate_request(make_request(design, 2), 1);
-  EXPECT_EQ(evaluation.status, solver::RunStatus::failed);
+  EXPECT_EQ(evaluation.status, results::RunStatus::failed);
   EXPECT_THAT(evaluation.reason, ::testing::HasSubstr("horizon"));
   EXPECT_EQ(evaluation.replicate, 2);
 }

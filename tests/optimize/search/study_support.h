@@ -77,7 +77,7 @@ inline Evaluation fake_evaluation(const Request& request) {
   const double diameter = number_in(entries, "layout.diameter"), jitter = number_in(entries, "layout.jitter");
   const double holes = number_in(entries, "layout.rows") * number_in(entries, "layout.columns");
   Evaluation evaluation;
-  evaluation.status = solver::RunStatus::completed;
+  evaluation.status = results::RunStatus::completed;
   evaluation.reason = "reached strain";
   evaluation.replicate = request.replicate;
   const double off = std::sqrt(fake_distance(diameter, jitter)) + 0.3 * std::abs(holes - 4.0);

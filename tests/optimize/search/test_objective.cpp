@@ -15,7 +15,7 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 Evaluation run(double plateau, double undulation = 0.0, double peak = 0.0) {
   Evaluation evaluation;
-  evaluation.status = solver::RunStatus::completed;
+  evaluation.status = results::RunStatus::completed;
   evaluation.summary.plateau_stress = plateau;
   evaluation.summary.undulation = undulation;
   evaluation.summary.first_peak_stress = peak;
@@ -90,7 +90,7 @@ TEST(Objective, OneFailedReplicateFailsTheCandidateAndSaysWhy) {
 
 TEST(Objective, AStoppedRunIsNotUsable) {
   Evaluation stopped = run(2e5);
-  stopped.status = solver::RunStatus::stopped;
+  stopped.status = results::RunStatus::stopped;
   EXPECT_FALSE(usable(stopped));
   EXPECT_FALSE(usable(run(nan_value)));
   EXPECT_TRUE(usable(run(1.0)));

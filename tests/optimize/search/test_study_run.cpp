@@ -152,7 +152,7 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
   {
     StudyRun run(study(), stopping);
     run.run();
-    EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+    EXPECT_EQ(run.status(), results::RunStatus::stopped);
     EXPECT_LT(run.answers().size(), expected.at("evaluations").get<std::size_t>());
     write_results(run);
     EXPECT_EQ(to_json(run).at("status"), "stopped");
@@ -167,11 +167,11 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
 TEST_F(StudyRunTest, AStoppedEvaluationIsNoAnswer) {
   StudyRun run(study(), options("half", [](const Request& request) {
                  Evaluation evaluation = fake_evaluation(request);
-                 evaluation.status = solver::RunStatus::stopped;
+                 evaluation.status = results::RunStatus::stopped;
                  return evaluation;
                }));
   run.run();
-  EXPECT_EQ(run.status(), solver::RunStatus::stopped);
+  EXPECT_EQ(run.status(), results::RunStatus::stopped);
   EXPECT_TRUE(run.answers().empty());
 }
 
@@ -300,7 +300,7 @@ TEST_F(StudyRunTest, WritesOneLineAPoint) {
 }
 
 TEST(CoarseCurve, AveragesOverStepsOfStrain) {
-  solver::History history;
+  results::History history;
   for (int k = 0; k < 100; ++k) {
     history.strain_yy.push_back(0.00025 + 0.0005 * k);  // Ten rows a step of 0.5 %.
     history.stress_yy.push_back(k);

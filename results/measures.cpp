@@ -1,12 +1,12 @@
 // What is here: integrals and crossings of a sampled curve, piecewise linear between rows.
-#include "solver/measures.h"
+#include "results/measures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace perfora::solver {
+namespace perfora::results {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -228,4 +228,4 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   summary.densification_strain = last_upward_crossing(strain, stress, densification_factor * summary.plateau_stress);
 }
 
-}  // namespace perfora::solver
+}  // namespace perfora::results

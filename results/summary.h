@@ -1,52 +1,24 @@
-// What is here: what a compression gives, as plain data: history rows, events, summary. What is not: how it is
-// computed.
+// What is here: the scalar results of a packing and of a run, as plain data. What is not: how they are computed
+// (measures.h, solver/run.cpp), their names, units and JSON (measure_table.h, json.h).
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
-namespace perfora::solver {
+#include "geometry/perforation.h"
+#include "results/status.h"
 
-enum class RunStatus { completed, stopped, failed };
-/// As files and JSON name it: "completed", "stopped", "failed".
-const char* status_name(RunStatus status);
+namespace perfora::results {
 
-/// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per
-/// metre of depth. Stresses are means since the last row; all else is at the row.
-struct History {
-  std::vector<double> strain_yy;  ///< engineering, compression positive
-  std::vector<double> strain_yy_log;
-  std::vector<double> stress_yy, stress_xx, stress_xy, stress_asymmetry;
-  std::vector<double> broken_bonds, fragments, contacts;
-  std::vector<double> time;
-  std::vector<double> rate;  ///< of the strain, mean since the last row, 1/s; 0 in the first
-  std::vector<double> external_work, elastic_bonds, elastic_contacts, kinetic, damage, friction, viscous, cundall;
-  /// Normal force over the block's nominal edge; empty without platens or side walls.
-  std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
-
-  /// Columns with their names and SI units, in file order (docs/formats.md).
-  struct Column {
-    const char* name;
-    const char* units;
-    std::vector<double> History::*values;
-    bool optional = false;  ///< left out of files where it is empty
-  };
-  static const std::vector<Column>& columns();
-  std::size_t rows() const { return strain_yy.size(); }
-};
-
-enum class BreakMode : std::uint8_t { tension = 0, shear = 1 };
-
-/// One broken bond.
-struct BreakEvent {
-  double time = 0.0;    ///< s
-  double strain = 0.0;  ///< engineering
-  std::int32_t bond = 0;
-  std::int32_t i = 0, j = 0;
-  double x = 0.0, y = 0.0;  ///< midpoint, m
-  BreakMode mode = BreakMode::tension;
-  double energy = 0.0;  ///< U0 at the break, J/m
+/// What `perfora pack` reports, beside what evaluate reports.
+struct PackSummary {
+  std::int64_t discs = 0, perforations = 0;
+  double mean_diameter = 0.0, solid_fraction = 0.0, porosity = 0.0, bonds_per_disc = 0.0;
+  geometry::ThinnestWall thinnest_wall;
+  double thinnest_wall_discretised = 0.0;
+  double max_overlap_ratio = 0.0, coordination_number = 0.0, rattler_fraction = 0.0;
 };
 
 /// A maximum of the 0.5 %-smoothed curve.
@@ -100,4 +72,4 @@ struct Performance {
   double peak_memory = 0.0;  ///< bytes
 };
 
-}  // namespace perfora::solver
+}  // namespace perfora::results

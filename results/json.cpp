@@ -1,12 +1,15 @@
-// What is here: records turned into JSON and back, the only place where their keys are spelled. What is not: files,
-// requests (request.cpp).
+// What is here: evaluations and their parts turned into JSON and back. What is not: files, requests
+// (optimize/evaluate/request.cpp), records of studies and sweeps.
+#include "results/json.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "optimize/evaluate/evaluation.h"
+#include "results/formats.h"
+#include "results/provenance.h"
 
-namespace perfora::optimize {
+namespace perfora::results {
 
 using nlohmann::json;
 
@@ -36,59 +39,58 @@ std::vector<double> numbers_from(const json& array) {
   return values;
 }
 
-solver::RunStatus status_from(const std::string& name) {
-  for (const auto status : {solver::RunStatus::completed, solver::RunStatus::stopped, solver::RunStatus::failed})
-    if (name == solver::status_name(status)) return status;
+RunStatus status_from(const std::string& name) {
+  if (const auto status = status_called(name)) return *status;
   throw std::invalid_argument("unknown status \"" + name + "\"");
 }
 
 struct SummaryNumber {
   const char* name;
-  double solver::Summary::*value;
+  double Summary::*value;
 };
 /// Real results; null where not reached.
 constexpr SummaryNumber summary_numbers[] = {
-    {"time_step", &solver::Summary::time_step},
-    {"rate", &solver::Summary::rate},
-    {"smallest_rate", &solver::Summary::smallest_rate},
-    {"largest_rate", &solver::Summary::largest_rate},
-    {"final_strain", &solver::Summary::final_strain},
-    {"first_peak_stress", &solver::Summary::first_peak_stress},
-    {"first_peak_strain", &solver::Summary::first_peak_strain},
-    {"stress_drop_ratio", &solver::Summary::stress_drop_ratio},
-    {"plateau_stress", &solver::Summary::plateau_stress},
-    {"minimum_stress_in_window", &solver::Summary::minimum_stress_in_window},
-    {"undulation", &solver::Summary::undulation},
-    {"densification_strain", &solver::Summary::densification_strain},
-    {"efficiency_strain", &solver::Summary::efficiency_strain},
-    {"only_rising_strain", &solver::Summary::only_rising_strain},
-    {"recovery_strain", &solver::Summary::recovery_strain},
-    {"intermediate_peaks", &solver::Summary::intermediate_peaks},
-    {"energy_absorbed", &solver::Summary::energy_absorbed},
-    {"cundall_share", &solver::Summary::cundall_share},
-    {"largest_fragment_fraction", &solver::Summary::largest_fragment_fraction},
-    {"max_overlap_in_run", &solver::Summary::max_overlap_in_run},
-    {"energy_residual", &solver::Summary::energy_residual},
-    {"stress_asymmetry", &solver::Summary::stress_asymmetry},
-    {"transits_before_peak", &solver::Summary::transits_before_peak},
-    {"kinetic_ratio_at_peak", &solver::Summary::kinetic_ratio_at_peak},
-    {"step_margin", &solver::Summary::step_margin},
-    {"noise_mean", &solver::Summary::noise_mean},
-    {"noise_std", &solver::Summary::noise_std},
-    {"noise_min", &solver::Summary::noise_min},
-    {"noise_max", &solver::Summary::noise_max},
+    {"time_step", &Summary::time_step},
+    {"rate", &Summary::rate},
+    {"smallest_rate", &Summary::smallest_rate},
+    {"largest_rate", &Summary::largest_rate},
+    {"final_strain", &Summary::final_strain},
+    {"first_peak_stress", &Summary::first_peak_stress},
+    {"first_peak_strain", &Summary::first_peak_strain},
+    {"stress_drop_ratio", &Summary::stress_drop_ratio},
+    {"plateau_stress", &Summary::plateau_stress},
+    {"minimum_stress_in_window", &Summary::minimum_stress_in_window},
+    {"undulation", &Summary::undulation},
+    {"densification_strain", &Summary::densification_strain},
+    {"efficiency_strain", &Summary::efficiency_strain},
+    {"only_rising_strain", &Summary::only_rising_strain},
+    {"recovery_strain", &Summary::recovery_strain},
+    {"intermediate_peaks", &Summary::intermediate_peaks},
+    {"energy_absorbed", &Summary::energy_absorbed},
+    {"cundall_share", &Summary::cundall_share},
+    {"largest_fragment_fraction", &Summary::largest_fragment_fraction},
+    {"max_overlap_in_run", &Summary::max_overlap_in_run},
+    {"energy_residual", &Summary::energy_residual},
+    {"stress_asymmetry", &Summary::stress_asymmetry},
+    {"transits_before_peak", &Summary::transits_before_peak},
+    {"kinetic_ratio_at_peak", &Summary::kinetic_ratio_at_peak},
+    {"step_margin", &Summary::step_margin},
+    {"noise_mean", &Summary::noise_mean},
+    {"noise_std", &Summary::noise_std},
+    {"noise_min", &Summary::noise_min},
+    {"noise_max", &Summary::noise_max},
 };
 
 struct SummaryCount {
   const char* name;
-  std::int64_t solver::Summary::*value;
+  std::int64_t Summary::*value;
 };
 constexpr SummaryCount summary_counts[] = {
-    {"steps", &solver::Summary::steps},
-    {"broken_bonds", &solver::Summary::broken_bonds},
-    {"broken_in_tension", &solver::Summary::broken_in_tension},
-    {"broken_in_shear", &solver::Summary::broken_in_shear},
-    {"fragments", &solver::Summary::fragments},
+    {"steps", &Summary::steps},
+    {"broken_bonds", &Summary::broken_bonds},
+    {"broken_in_tension", &Summary::broken_in_tension},
+    {"broken_in_shear", &Summary::broken_in_shear},
+    {"fragments", &Summary::fragments},
 };
 
 struct PackNumber {
@@ -121,8 +123,8 @@ PackSummary pack_from(const json& record) {
   return pack;
 }
 
-solver::Summary summary_from(const json& record) {
-  solver::Summary summary;
+Summary summary_from(const json& record) {
+  Summary summary;
   for (const SummaryNumber& entry : summary_numbers) summary.*entry.value = number_from(record, entry.name);
   for (const SummaryCount& entry : summary_counts) summary.*entry.value = record.at(entry.name).get<std::int64_t>();
   for (const json& peak : record.value("peaks", json::array()))
@@ -132,8 +134,8 @@ solver::Summary summary_from(const json& record) {
   return summary;
 }
 
-solver::Performance performance_from(const json& record) {
-  solver::Performance performance;
+Performance performance_from(const json& record) {
+  Performance performance;
   performance.seconds = number_from(record, "seconds");
   performance.steps_per_second = number_from(record, "steps_per_second");
   performance.ns_per_bond_step = number_from(record, "ns_per_bond_step");
@@ -143,15 +145,15 @@ solver::Performance performance_from(const json& record) {
   return performance;
 }
 
-json head(const char* schema, solver::RunStatus status, const std::string& reason, const Seeds::Effective& seeds) {
+}  // namespace
+
+json record_head(const char* schema, RunStatus status, const std::string& reason, const EffectiveSeeds& seeds) {
   return {{"schema", schema},
-          {"status", solver::status_name(status)},
+          {"status", status_name(status)},
           {"reason", reason},
           {"seeds", to_json(seeds)},
           {"results_version", results_version}};
 }
-
-}  // namespace
 
 json to_json(const PackSummary& summary) {
   json record = {{"discs", summary.discs}, {"perforations", summary.perforations}};
@@ -162,18 +164,18 @@ json to_json(const PackSummary& summary) {
   return record;
 }
 
-json to_json(const solver::Summary& summary) {
+json to_json(const Summary& summary) {
   json record = json::object();
   for (const SummaryNumber& entry : summary_numbers) record[entry.name] = number(summary.*entry.value);
   for (const SummaryCount& entry : summary_counts) record[entry.name] = summary.*entry.value;
   json peaks = json::array();
-  for (const solver::CurvePeak& peak : summary.peaks) peaks.push_back({peak.strain, peak.stress});
+  for (const CurvePeak& peak : summary.peaks) peaks.push_back({peak.strain, peak.stress});
   record["peaks"] = peaks;
   record["plateau_window"] = {number(summary.plateau_start), number(summary.plateau_end)};
   return record;
 }
 
-json to_json(const solver::Performance& performance) {
+json to_json(const Performance& performance) {
   // A packing has no steps: zero rates are "not reached".
   auto rate = [](double value) { return value > 0.0 ? number(value) : json(nullptr); };
   return {{"seconds", number(performance.seconds)},
@@ -184,21 +186,12 @@ json to_json(const solver::Performance& performance) {
           {"peak_memory", rate(performance.peak_memory)}};
 }
 
-json to_json(const Seeds::Effective& seeds) {
+json to_json(const EffectiveSeeds& seeds) {
   return {{"packing", seeds.packing}, {"noise", seeds.noise}, {"layout", seeds.layout}, {"search", seeds.search}};
 }
 
-json pack_record(const PackedDesign& packed, const Seeds::Effective& seeds, const solver::Performance& performance) {
-  const bool reached = packed.periodic.quality.reached;
-  json record = head("perfora.pack/1", reached ? solver::RunStatus::completed : solver::RunStatus::failed,
-                     reached ? "packing made" : packed.periodic.quality.reason, seeds);
-  record.update(to_json(packed.summary));
-  record["performance"] = to_json(performance);
-  return record;
-}
-
 json to_json(const Evaluation& evaluation, bool with_curve) {
-  json record = head("perfora.evaluate/1", evaluation.status, evaluation.reason, evaluation.seeds);
+  json record = record_head(evaluation_schema, evaluation.status, evaluation.reason, evaluation.seeds);
   record["replicate"] = evaluation.replicate;
   record.update(to_json(evaluation.pack));
   record.update(to_json(evaluation.summary));
@@ -231,4 +224,4 @@ Evaluation evaluation_from_json(const json& record) {
   return evaluation;
 }
 
-}  // namespace perfora::optimize
+}  // namespace perfora::results

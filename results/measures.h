@@ -1,9 +1,10 @@
 // What is here: the numbers read from a compression curve. What is not: the run.
 #pragma once
 
-#include "solver/response.h"
+#include "results/history.h"
+#include "results/summary.h"
 
-namespace perfora::solver {
+namespace perfora::results {
 
 /// Fills plateau_stress, minimum_stress_in_window, undulation, densification and efficiency strain, only_rising_strain,
 /// recovery_strain, the peaks, stress_drop_ratio, energy_absorbed and cundall_share of `summary` from the history
@@ -22,4 +23,4 @@ void measure_rate(const History& history, Summary& summary);
 /// Slope of the curve between a quarter and three quarters of the first peak, Pa; NaN when it cannot be fitted.
 double loading_modulus(const History& history, double peak_stress, double peak_strain);
 
-}  // namespace perfora::solver
+}  // namespace perfora::results

@@ -1,19 +1,11 @@
-// What is here: the columns of a history, the names of states. What is not: how either is computed.
-#include "solver/response.h"
+// What is here: the columns of a history, its CSV form. What is not: how it is computed.
+#include "results/history.h"
 
-namespace perfora::solver {
+#include <fmt/format.h>
 
-const char* status_name(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::stopped:
-      return "stopped";
-    case RunStatus::failed:
-      return "failed";
-  }
-  return "failed";
-}
+#include <iterator>
+
+namespace perfora::results {
 
 const std::vector<History::Column>& History::columns() {
   static const std::vector<Column> list = {
@@ -44,4 +36,20 @@ const std::vector<History::Column>& History::columns() {
   return list;
 }
 
-}  // namespace perfora::solver
+std::string history_csv(const History& history) {
+  std::vector<const History::Column*> columns;
+  for (const History::Column& column : History::columns())
+    if (!(history.*column.values).empty()) columns.push_back(&column);
+  fmt::memory_buffer out;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    fmt::format_to(std::back_inserter(out), "{}{}", c == 0 ? "" : ",", columns[c]->name);
+  out.push_back('\n');
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      fmt::format_to(std::back_inserter(out), "{}{:.17g}", c == 0 ? "" : ",", (history.*columns[c]->values)[row]);
+    out.push_back('\n');
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace perfora::results

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "solver/measures.h"
+#include "results/measures.h"
 #include "solver/noise.h"
 #include "tests/solver/sample_packings.h"
 
-namespace perfora::solver {
+namespace perfora::results {
 namespace {
 
 /// A history sampled from stress(strain); work is its exact integral times the area when given.
@@ -221,4 +221,4 @@ TEST(Noise, WeibullMoments) {
 }
 
 }  // namespace
-}  // namespace perfora::solver
+}  // namespace perfora::results

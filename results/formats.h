@@ -1,0 +1,17 @@
+// What is here: the names of all formats that Perfora writes (docs/user/formats.md). What is not: what they hold.
+#pragma once
+
+namespace perfora::results {
+
+// HDF5, attribute `format`.
+inline constexpr const char* run_format = "perfora.run/1";
+inline constexpr const char* pack_format = "perfora.pack/1";
+inline constexpr const char* material_format = "perfora.test/1";
+inline constexpr const char* elastic_format = "perfora.elastic/1";
+inline constexpr const char* checkpoint_format = "perfora.checkpoint/4";
+// JSON, key `schema`; packings, material tests and elastic responses have the names of their files.
+inline constexpr const char* evaluation_schema = "perfora.evaluate/1";
+inline constexpr const char* ensemble_schema = "perfora.ensemble/1";
+inline constexpr const char* sweep_schema = "perfora.sweep/1";
+
+}  // namespace perfora::results

@@ -1,0 +1,26 @@
+// What is here: the checkpoint of a run: everything its path needs to go on with the same bits. What is not: the folder
+// it lies in (run_folder.h), when it is written (run.cpp).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "results/history.h"
+#include "solver/simulation.h"
+
+namespace perfora::solver {
+
+/// What run.cpp keeps beside the simulation and must find again.
+struct RunProgress {
+  results::History history;
+  std::int64_t rows = 0;
+  int frames = 0;
+  double kinetic_ratio = 0.0;  ///< kinetic over elastic energy at the last row before the peak was passed
+  double seconds = 0.0;        ///< wall time so far
+};
+
+void write_checkpoint(const std::filesystem::path& file, const Simulation& simulation, const RunProgress& progress);
+/// Throws io::InputError when the file does not belong to a simulation of this size.
+RunProgress read_checkpoint(const std::filesystem::path& file, Simulation& simulation);
+
+}  // namespace perfora::solver
