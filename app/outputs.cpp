@@ -38,7 +38,7 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
 
 void write_beside(const fs::path& run_file) {
   const results::RunResult run = results::read_run(run_file);
-  io::write_file(fs::path(run_file).replace_extension(".csv"), results::history_csv(run));
+  io::write_file(fs::path(run_file).replace_extension(".csv"), results::history_csv(run.history));
   report::write_xdmf(run_file, fs::path(run_file).replace_extension(".xdmf"));
 }
 

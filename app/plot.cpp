@@ -34,12 +34,12 @@ std::string format_of(const fs::path& file) {
 /// luck tells apart, also where a program that knew fewer keys made one of them.
 std::string design_of(const results::RunResult& run) {
   try {
-    optimize::DesignFile design = optimize::DesignFile::from_toml(run.config, run.path.string());
+    optimize::DesignFile design = optimize::DesignFile::from_toml(run.provenance.config, run.path.string());
     design.design().seeds = {};
     design.design().solver.output = {};
     return design.schema().changed_toml();
   } catch (const io::InputError&) {
-    return run.config;  // of a program that knew more keys
+    return run.provenance.config;  // of a program that knew more keys
   }
 }
 

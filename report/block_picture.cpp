@@ -1,5 +1,7 @@
 // What is here: drawing of blocks. What is not: the colouring of fragments (fragment_colours.cpp).
 #include "report/block_picture.h"
+#include "results/frame.h"
+#include "results/run_file.h"
 
 #include <fmt/format.h>
 

@@ -9,6 +9,7 @@
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
 #include "report/canvas.h"
+#include "results/frame.h"
 #include "results/run_file.h"
 
 namespace perfora::report {

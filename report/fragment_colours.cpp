@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/block_picture.h"
+#include "results/frame.h"
 
 namespace perfora::report {
 namespace {

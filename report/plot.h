@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "results/elastic_file.h"
+#include "results/frame.h"
 #include "results/pack_file.h"
 #include "results/run_file.h"
 

@@ -8,6 +8,9 @@
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/plot.h"
+#include "results/frame.h"
+#include "results/run_file.h"
+#include "results/summary_numbers.h"
 
 namespace perfora::report {
 namespace {

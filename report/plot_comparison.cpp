@@ -10,6 +10,7 @@
 #include "report/chart.h"
 #include "report/curve_mean.h"
 #include "report/plot.h"
+#include "results/summary_numbers.h"
 
 namespace perfora::report {
 namespace {

@@ -11,6 +11,8 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/plot.h"
+#include "results/elastic_file.h"
+#include "results/summary_numbers.h"
 
 namespace perfora::report {
 namespace {

@@ -11,6 +11,7 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/plot.h"
+#include "results/material_file.h"
 
 namespace perfora::report {
 namespace {

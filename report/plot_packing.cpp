@@ -9,6 +9,8 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/plot.h"
+#include "results/pack_file.h"
+#include "results/summary_numbers.h"
 
 namespace perfora::report {
 namespace {

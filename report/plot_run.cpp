@@ -9,6 +9,9 @@
 #include "report/canvas.h"
 #include "report/curve_panel.h"
 #include "report/plot.h"
+#include "results/frame.h"
+#include "results/run_file.h"
+#include "results/summary_numbers.h"
 
 namespace perfora::report {
 namespace {

@@ -67,8 +67,8 @@ std::string describe_run(const std::filesystem::path& path) {
   text += line("bonds", count(run.bonds.size()) + ", broken " + count(run.events.size()));
   if (run.history.rows() > 0) {
     const std::vector<double>& strain = run.history.strain_yy;
-    text += line("history", count(run.history.rows()) + " rows of " + count(run.history.size()) + " columns, strain " +
-                                percent(strain.front()) + " to " + percent(strain.back()));
+    text += line("history", count(run.history.rows()) + " rows of " + count(run.history.filled_columns()) +
+                                " columns, strain " + percent(strain.front()) + " to " + percent(strain.back()));
   }
   std::string frames = count(run.frames.size());
   if (!run.frames.empty())

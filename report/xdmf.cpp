@@ -12,6 +12,7 @@
 
 #include "io/hdf5.h"
 #include "io/journal.h"
+#include "results/frame.h"
 #include "results/run_file.h"
 
 namespace perfora::report {

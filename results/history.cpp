@@ -36,10 +36,23 @@ const std::vector<History::Column>& History::columns() {
   return list;
 }
 
-std::string history_csv(const History& history) {
+namespace {
+
+std::vector<const History::Column*> filled(const History& history) {
   std::vector<const History::Column*> columns;
   for (const History::Column& column : History::columns())
     if (!(history.*column.values).empty()) columns.push_back(&column);
+  return columns;
+}
+
+}  // namespace
+
+std::size_t History::filled_columns() const {
+  return filled(*this).size();
+}
+
+std::string history_csv(const History& history) {
+  const std::vector<const History::Column*> columns = filled(history);
   fmt::memory_buffer out;
   for (std::size_t c = 0; c < columns.size(); ++c)
     fmt::format_to(std::back_inserter(out), "{}{}", c == 0 ? "" : ",", columns[c]->name);

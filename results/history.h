@@ -29,6 +29,7 @@ struct History {
   };
   static const std::vector<Column>& columns();
   std::size_t rows() const { return strain_yy.size(); }
+  std::size_t filled_columns() const;  ///< columns that hold a number a row
 };
 
 /// The history as CSV: one line of names, then one line a row, 17 digits, SI (docs/user/formats.md). Columns that the

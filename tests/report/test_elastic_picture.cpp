@@ -10,12 +10,12 @@
 #include "io/error.h"
 #include "io/hdf5.h"
 #include "report/plot.h"
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 namespace perfora::report {
 namespace {
 
-using testing::fresh_folder;
+using results::testing::fresh_folder;
 using ::testing::HasSubstr;
 
 /// A row of four discs that yield at 1, 2 and 4 per mille; the last never.

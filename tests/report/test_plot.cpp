@@ -16,14 +16,14 @@
 #include "report/plot_study.h"
 #include "report/plot_sweep.h"
 #include "report/search_panel.h"
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 namespace perfora::report {
 namespace {
 
-using testing::fresh_folder;
-using testing::make_run;
-using testing::SyntheticRun;
+using results::testing::fresh_folder;
+using results::testing::make_run;
+using results::testing::SyntheticRun;
 
 struct Image {
   explicit Image(const std::filesystem::path& path) : surface(cairo_image_surface_create_from_png(path.c_str())) {}
@@ -361,9 +361,7 @@ TEST(Comparison, AxisIsThatOfTheFirstPeaks) {
   const results::RunResult whole = results::read_run(folder / "R.h5");
   results::RunResult stopped = whole;
   stopped.summary.erase("first_peak_stress");
-  for (Column& column : stopped.history)
-    for (double& value : column.values)
-      if (column.name == "stress_yy") value *= 1e-3;
+  for (double& value : stopped.history.stress_yy) value *= 1e-3;
   plot_comparison({{"one", whole, "a"}, {"two", stopped, "b"}}, folder / "ab.png", {});
   plot_comparison({{"two", stopped, "b"}, {"one", whole, "a"}}, folder / "ba.png", {});
   constexpr int charts_left = 130, charts_right = 1000;  // the table stands right of them

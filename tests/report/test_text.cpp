@@ -9,14 +9,14 @@
 #include "io/journal.h"
 #include "report/text.h"
 #include "report/xdmf.h"
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 namespace perfora::report {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
-using testing::fresh_folder;
+using results::testing::fresh_folder;
 using ::testing::HasSubstr;
 
 std::string refusal(const std::filesystem::path& path) {
@@ -30,11 +30,11 @@ std::string refusal(const std::filesystem::path& path) {
 
 TEST(Describe, RunPackingAndXdmfCompanion) {
   const auto folder = fresh_folder("describe");
-  const testing::SyntheticRun run = testing::make_run(0.05, 2, 1e-3, 0.6);
+  const results::testing::SyntheticRun run = results::testing::make_run(0.05, 2, 1e-3, 0.6);
   write_run(run, folder / "R.h5");
   write_pack(run, folder / "P.h5");
   write_xdmf(folder / "R.h5", folder / "R.xdmf");
-  // Values of synthetic_run.cpp: peak 0.55 MPa at 0.9 %, plateau 0.025 MPa, 1,201 rows, 8 frames.
+  // Values of ${PROJECT_SOURCE_DIR}/tests/results/synthetic_run.cpp: peak 0.55 MPa at 0.9 %, plateau 0.025 MPa, 1,201 rows, 8 frames.
   EXPECT_THAT(describe_file(folder / "R.h5"),
               AllOf(HasSubstr("completed, reached the wanted strain"), HasSubstr("50.00 x 50.00 mm"),
                     HasSubstr("1,201 rows"), ContainsRegex("frames +8, strain 0 % to 60.00 %"),

@@ -10,12 +10,12 @@
 #include "io/hdf5.h"
 #include "io/journal.h"
 #include "report/xdmf.h"
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 namespace perfora::report {
 namespace {
 
-using testing::fresh_folder;
+using results::testing::fresh_folder;
 
 /// What stands between `before` and `after`, from `start` on.
 std::string between(const std::string& text, const std::string& before, const std::string& after, std::size_t start) {
@@ -25,7 +25,7 @@ std::string between(const std::string& text, const std::string& before, const st
 
 TEST(Xdmf, EveryItemIsADatasetOfThatShape) {
   const auto folder = fresh_folder("xdmf");
-  testing::SyntheticRun run = testing::make_run(0.05, 2, 1e-3, 0.3);
+  results::testing::SyntheticRun run = results::testing::make_run(0.05, 2, 1e-3, 0.3);
   run.frames.back().bond_pairs.clear();
   run.frames.back().bond_damage.clear();
   write_run(run, folder / "my run.h5");
@@ -48,7 +48,7 @@ TEST(Xdmf, EveryItemIsADatasetOfThatShape) {
 // bond of the synthetic run, 1.9 diameters.
 TEST(Xdmf, NoLineCrossesTheBlock) {
   const auto folder = fresh_folder("xdmf-lines");
-  const testing::SyntheticRun run = testing::make_run(0.05, 2, 1e-3, 0.0);
+  const results::testing::SyntheticRun run = results::testing::make_run(0.05, 2, 1e-3, 0.0);
   write_run(run, folder / "R.h5");
   write_xdmf(folder / "R.h5", folder / "R.xdmf");
   const io::Hdf5Reader file(folder / "R.xdmf.h5");

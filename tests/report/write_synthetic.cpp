@@ -6,7 +6,7 @@
 
 #include "report/plot.h"
 #include "report/xdmf.h"
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 /// write_synthetic FOLDER [full]: R.h5, R.xdmf, P.h5 and pictures; `full` has 37,000 discs.
 int main(int argc, char** argv) {
@@ -17,13 +17,13 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  testing::SyntheticRun synthetic =
-      argc > 2 ? testing::make_run(0.15, 6, 0.5044e-3, 0.6) : testing::make_run(0.05, 2, 1e-3, 0.6);
+  results::testing::SyntheticRun synthetic =
+      argc > 2 ? results::testing::make_run(0.15, 6, 0.5044e-3, 0.6) : results::testing::make_run(0.05, 2, 1e-3, 0.6);
   // A frame in which every bond is broken: viewers must take a grid without cells.
   synthetic.frames.back().bond_pairs.clear();
   synthetic.frames.back().bond_damage.clear();
-  testing::write_run(synthetic, folder / "R.h5");
-  testing::write_pack(synthetic, folder / "P.h5");
+  results::testing::write_run(synthetic, folder / "R.h5");
+  results::testing::write_pack(synthetic, folder / "P.h5");
   write_xdmf(folder / "R.h5", folder / "R.xdmf");
   plot_run(folder / "R.h5", folder / "R.png");
   plot_packing(folder / "P.h5", folder / "P.png");

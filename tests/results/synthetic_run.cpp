@@ -1,5 +1,5 @@
 // What is here: the made-up runs. What is not: mechanics.
-#include "synthetic_run.h"
+#include "tests/results/synthetic_run.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/packing_file.h"
-#include "io/hdf5.h"
+#include "results/formats.h"
+#include "results/pack_file.h"
 
-namespace perfora::report::testing {
+namespace perfora::results::testing {
 namespace {
 
 constexpr double peak_strain = 0.009;
@@ -83,32 +83,28 @@ double stress_at(double strain, std::mt19937& engine) {
   return fall + spikes + densified;
 }
 
-void fill_history(results::RunResult& run, double until, std::mt19937& engine) {
-  const char* names[] = {"strain_yy",    "strain_yy_log", "stress_yy", "stress_xx", "stress_xy",
-                         "broken_bonds", "fragments",     "contacts",  "time",      "external_work"};
-  const char* units[] = {"", "", "Pa", "Pa", "Pa", "", "", "", "s", "J/m"};
-  for (std::size_t c = 0; c < std::size(names); ++c) run.history.push_back({names[c], units[c], {}});
+void fill_history(RunResult& run, double until, std::mt19937& engine) {
+  History& h = run.history;
   double work = 0.0;
   for (int row = 0; row * 5e-4 <= until + 1e-12; ++row) {
     const double strain = row * 5e-4;
     const double stress = stress_at(strain, engine);
     work += stress * 5e-4 * run.width * run.height;
     const double broken = strain > peak_strain ? std::min(0.5, strain) * static_cast<double>(run.bonds.size()) : 0.0;
-    const double values[] = {strain,
-                             -std::log1p(-strain),
-                             stress,
-                             0.3 * stress,
-                             0.01 * stress,
-                             std::floor(broken),
-                             1.0 + std::floor(400.0 * strain),
-                             std::floor(1000.0 * strain),
-                             strain / 2.0,
-                             work};
-    for (std::size_t c = 0; c < std::size(values); ++c) run.history[c].values.push_back(values[c]);
+    h.strain_yy.push_back(strain);
+    h.strain_yy_log.push_back(-std::log1p(-strain));
+    h.stress_yy.push_back(stress);
+    h.stress_xx.push_back(0.3 * stress);
+    h.stress_xy.push_back(0.01 * stress);
+    h.broken_bonds.push_back(std::floor(broken));
+    h.fragments.push_back(1.0 + std::floor(400.0 * strain));
+    h.contacts.push_back(std::floor(1000.0 * strain));
+    h.time.push_back(strain / 2.0);
+    h.external_work.push_back(work);
   }
 }
 
-void make_bonds(results::RunResult& run, std::mt19937& engine) {
+void make_bonds(RunResult& run, std::mt19937& engine) {
   // Neighbours within 1.9 diameters, by brute force over a window of the list (rows of the lattice follow each other).
   const geometry::Packing& discs = run.clipped;
   const std::int32_t window = static_cast<std::int32_t>(2.2 * run.width / run.mean_diameter);
@@ -129,8 +125,7 @@ void make_bonds(results::RunResult& run, std::mt19937& engine) {
 }
 
 /// Fragment of each disc: the nearest of a few random seeds; numbered by falling size.
-std::vector<std::int32_t> break_up(const results::RunResult& run, int pieces, std::mt19937& engine,
-                                   std::vector<double>& seeds) {
+std::vector<std::int32_t> break_up(const RunResult& run, int pieces, std::mt19937& engine, std::vector<double>& seeds) {
   seeds.clear();
   for (int p = 0; p < 2 * pieces; ++p) seeds.push_back(uniform(engine) * run.width);
   std::vector<std::int32_t> nearest;
@@ -165,8 +160,8 @@ std::vector<std::int32_t> break_up(const results::RunResult& run, int pieces, st
   return nearest;
 }
 
-results::Frame make_frame(const results::RunResult& run, int number, double strain, std::mt19937& engine) {
-  results::Frame frame;
+Frame make_frame(const RunResult& run, int number, double strain, std::mt19937& engine) {
+  Frame frame;
   frame.info = {fmt::format("{:05d}", number), strain, strain / 2.0, run.width, 0.0, run.height * (1.0 - strain)};
   const int pieces = strain <= peak_strain ? 1 : 1 + static_cast<int>(strain * 160.0);
   std::vector<double> seeds;
@@ -202,27 +197,21 @@ results::Frame make_frame(const results::RunResult& run, int number, double stra
   return frame;
 }
 
-void fill_events(results::RunResult& run, double until, std::mt19937& engine) {
-  for (std::int32_t b = 0; b < static_cast<std::int32_t>(run.bonds.size()); b += 17) {
-    const double strain = peak_strain + (until - peak_strain) * uniform(engine);
-    run.events.strain.push_back(strain);
-    run.events.bond.push_back(b);
-    run.events.mode.push_back(b % 3 == 0 ? 1 : 0);
-  }
-  std::sort(run.events.strain.begin(), run.events.strain.end());
-  for (std::size_t k = 0; k < run.events.strain.size(); ++k) {
-    const auto b = static_cast<std::size_t>(run.events.bond[k]);
-    const std::int32_t i = run.bonds.pairs[2 * b];
-    run.events.time.push_back(run.events.strain[k] / 2.0);
-    run.events.i.push_back(i);
-    run.events.j.push_back(run.bonds.pairs[2 * b + 1]);
-    run.events.x.push_back(run.clipped.x[static_cast<std::size_t>(i)]);
-    run.events.y.push_back(run.clipped.y[static_cast<std::size_t>(i)]);
-    run.events.energy.push_back(1e-6);
+void fill_events(RunResult& run, double until, std::mt19937& engine) {
+  std::vector<double> strains;
+  for (std::size_t b = 0; b < run.bonds.size(); b += 17)
+    strains.push_back(peak_strain + (until - peak_strain) * uniform(engine));
+  std::sort(strains.begin(), strains.end());
+  for (std::size_t k = 0; k < strains.size(); ++k) {
+    const std::size_t b = 17 * k;
+    const std::int32_t i = run.bonds.pairs[2 * b], j = run.bonds.pairs[2 * b + 1];
+    run.events.push_back({strains[k] / 2.0, strains[k], static_cast<std::int32_t>(b), i, j,
+                          run.clipped.x[static_cast<std::size_t>(i)], run.clipped.y[static_cast<std::size_t>(i)],
+                          b % 3 == 0 ? BreakMode::shear : BreakMode::tension, 1e-6});
   }
 }
 
-void fill_summary(results::RunResult& run, double until) {
+void fill_summary(RunResult& run, double until) {
   run.summary = {{"schema", "perfora.evaluate/1"},
                  {"status", "completed"},
                  {"reason", "reached the wanted strain"},
@@ -248,11 +237,18 @@ void fill_summary(results::RunResult& run, double until) {
 SyntheticRun make_run(double size, int holes, double mean_diameter, double until, unsigned seed) {
   std::mt19937 engine(seed);
   SyntheticRun synthetic;
-  results::RunResult& run = synthetic.run;
+  RunResult& run = synthetic.run;
   run.path = "synthetic.h5";
   run.status = "completed";
   run.reason = "reached the wanted strain";
   run.provenance.program_version = "0.1.0";
+  run.provenance.git_revision = "0000000";
+  run.provenance.compiler = "g++";
+  run.provenance.simd = "none";
+  run.provenance.command_line = "perfora evaluate";
+  run.provenance.threads = 2;
+  run.provenance.results_version = 1;
+  run.provenance.seconds = 12.5;
   run.provenance.seeds = R"({"packing": 11, "noise": 12, "layout": 13, "search": 14})";
   run.width = run.height = size;
   run.mean_diameter = mean_diameter;
@@ -262,7 +258,7 @@ SyntheticRun make_run(double size, int holes, double mean_diameter, double until
   fill_history(run, until, engine);
   fill_events(run, until, engine);
   fill_summary(run, until);
-  run.config = "[cell]\nwidth = " + std::to_string(size) + "\n";
+  run.provenance.config = "[cell]\nwidth = " + std::to_string(size) + "\n";
   int number = 0;
   for (double strain : {0.0, peak_strain, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) {
     if (strain > until + 1e-9) break;
@@ -279,84 +275,24 @@ std::filesystem::path fresh_folder(const std::string& name) {
   return folder;
 }
 
-namespace {
-
-void write_frame(io::Hdf5Writer& file, const results::Frame& frame) {
-  const std::string group = "/frames/" + frame.info.name;
-  file.group(group);
-  file.attribute(group, "strain", frame.info.strain);
-  file.attribute(group, "time", frame.info.time);
-  file.attribute(group, "h_xx", frame.info.h_xx);
-  file.attribute(group, "h_xy", frame.info.h_xy);
-  file.attribute(group, "h_yy", frame.info.h_yy);
-  file.dataset(group + "/discs/position", frame.position, 2, "m");
-  file.dataset(group + "/discs/angle", frame.angle, 0, "rad");
-  file.dataset(group + "/discs/fragment", frame.fragment);
-  file.dataset(group + "/discs/damage", frame.damage);
-  file.dataset(group + "/bonds/pairs", frame.bond_pairs, 2);
-  file.dataset(group + "/bonds/damage", frame.bond_damage);
-}
-
-void write_events(io::Hdf5Writer& file, const results::Events& events) {
-  file.dataset("/events/time", events.time, 0, "s");
-  file.dataset("/events/strain", events.strain);
-  file.dataset("/events/x", events.x, 0, "m");
-  file.dataset("/events/y", events.y, 0, "m");
-  file.dataset("/events/energy", events.energy, 0, "J/m");
-  file.dataset("/events/i", events.i);
-  file.dataset("/events/j", events.j);
-  file.dataset("/events/mode", events.mode);
-  file.dataset("/events/bond", events.bond);
-}
-
-}  // namespace
-
 void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path) {
-  const results::RunResult& run = synthetic.run;
-  io::Hdf5Writer file(path);
-  const std::pair<const char*, std::string> texts[] = {{"format", "perfora.run/1"},
-                                                       {"status", run.status},
-                                                       {"reason", run.reason},
-                                                       {"program_version", run.provenance.program_version},
-                                                       {"git_revision", "0000000"},
-                                                       {"compiler", "g++"},
-                                                       {"simd", "none"},
-                                                       {"command_line", "perfora evaluate"},
-                                                       {"seeds", run.provenance.seeds}};
-  for (const auto& [name, value] : texts) file.attribute("/", name, value);
-  file.attribute("/", "threads", std::int64_t{2});
-  file.attribute("/", "results_version", std::int64_t{1});
-  file.attribute("/", "seconds", 12.5);
-  file.attribute("/", "width", run.width);
-  file.attribute("/", "height", run.height);
-  file.attribute("/", "mean_diameter", run.mean_diameter);
-  for (const Column& column : run.history) file.dataset("/history/" + column.name, column.values, 0, column.units);
-  for (const results::Frame& frame : synthetic.frames) write_frame(file, frame);
-  write_events(file, run.events);
-  file.dataset("/bonds/pairs", run.bonds.pairs, 2);
-  file.dataset("/bonds/rest_length", run.bonds.rest_length, 0, "m");
-  file.dataset("/bonds/strength_factor", run.bonds.strength_factor);
-  geometry::write_packing(file, "/clipped", run.clipped);
-  geometry::write_packing(file, "/packing", run.clipped);
-  geometry::write_layout(file, "/layout", run.layout);
-  file.text("/config", run.config);
-  file.text("/summary", run.summary.dump());
-  file.commit();
+  std::vector<std::filesystem::path> frames;
+  for (const Frame& frame : synthetic.frames) {
+    frames.push_back(path.parent_path() / ("frame-" + frame.info.name + ".h5"));
+    write_frame(frames.back(), frame);
+  }
+  write_run(path, synthetic.run, frames, &synthetic.run.clipped);
+  for (const std::filesystem::path& frame : frames) std::filesystem::remove(frame);
 }
 
 void write_pack(const SyntheticRun& synthetic, const std::filesystem::path& path) {
-  const results::RunResult& run = synthetic.run;
-  io::Hdf5Writer file(path);
-  file.attribute("/", "format", std::string("perfora.pack/1"));
-  file.attribute("/", "program_version", run.provenance.program_version);
-  file.attribute("/", "seeds", run.provenance.seeds);
-  geometry::write_packing(file, "/clipped", run.clipped);
-  geometry::write_packing(file, "/packing", run.clipped);
-  geometry::write_layout(file, "/layout", run.layout);
-  file.text("/config", run.config);
-  file.text("/summary",
-            R"({"schema": "perfora.pack/1", "discs": 36607, "bonds_per_disc": 21.3, "thinnest_wall": 0.005})");
-  file.commit();
+  const RunResult& run = synthetic.run;
+  write_pack(path, {path,
+                    run.provenance,
+                    run.clipped,
+                    run.clipped,
+                    run.layout,
+                    {{"schema", pack_format}, {"discs", 36607}, {"bonds_per_disc", 21.3}, {"thinnest_wall", 0.005}}});
 }
 
-}  // namespace perfora::report::testing
+}  // namespace perfora::results::testing

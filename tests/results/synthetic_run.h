@@ -8,11 +8,11 @@
 
 #include "results/run_file.h"
 
-namespace perfora::report::testing {
+namespace perfora::results::testing {
 
 struct SyntheticRun {
-  results::RunResult run;
-  std::vector<results::Frame> frames;
+  RunResult run;
+  std::vector<Frame> frames;
 };
 
 /// A square block of `size` (m) with `holes` x `holes` perforations of 20 mm per 25 mm of pitch (scaled with the size),
@@ -27,4 +27,4 @@ void write_pack(const SyntheticRun& synthetic, const std::filesystem::path& path
 /// An empty folder for one test, removed first when it is there.
 std::filesystem::path fresh_folder(const std::string& name);
 
-}  // namespace perfora::report::testing
+}  // namespace perfora::results::testing
