@@ -33,6 +33,7 @@ int calibrate(const CalibrateFlags& flags) {
   options.threads = flags.common.thread_count();
   options.resume = flags.resume;
   options.force = flags.common.force;
+  options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);

@@ -10,16 +10,16 @@
 
 #include "io/error.h"
 #include "io/journal.h"
-#include "solver/run.h"
 
 namespace perfora::app {
 
 namespace {
 
-std::string command_line_text;  // NOLINT: written once by main()
+std::string command_line_text;       // NOLINT: written once by main()
+io::CancellationSource stop_source;  // NOLINT: a signal handler has no argument to find it by
 
 extern "C" void ask_to_stop(int) {
-  solver::request_stop();
+  stop_source.request();
 }
 
 /// Whole numbers from 0 (derive from --seed) to 2^53 - 1 (exact in JSON).
@@ -147,6 +147,10 @@ void install_stop_handlers() {
   action.sa_flags = SA_RESETHAND | SA_RESTART;  // the second signal meets the default action
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+io::Cancellation stop_token() {
+  return stop_source.token();
 }
 
 void remove_stop_handlers() {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cancellation.h"
 #include "io/progress.h"
 #include "results/status.h"
 
@@ -59,9 +60,10 @@ void print_text(const std::string& text);
 const std::string& command_line();
 void set_command_line(int argc, char** argv);
 
-/// SIGINT and SIGTERM ask the running compression or search to write a checkpoint and stop; a second one ends the
-/// program at once.
+/// SIGINT and SIGTERM request the stop that stop_token() tells of; a second one ends the program at once.
 void install_stop_handlers();
+/// What every compression, test or search of this program is given: it writes a checkpoint or its journal and stops.
+io::Cancellation stop_token();
 /// They end the program at once: for subcommands without checkpoints, whose outputs appear whole at their end.
 void remove_stop_handlers();
 

@@ -42,6 +42,7 @@ optimize::EvaluateOptions evaluate_options(const EvaluateFlags& flags, ProgressL
   options.packing_file = flags.packing;
   options.resume = flags.resume;
   options.wall_time_limit = flags.wall_time;
+  options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
   return options;

@@ -18,7 +18,6 @@
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
 #include "report/plot_study.h"
-#include "solver/run.h"
 
 namespace perfora::app {
 
@@ -40,7 +39,7 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.resume = flags.resume;
   options.force = flags.common.force;
   options.command_line = command_line();
-  options.stop_requested = [] { return solver::stop_requested(); };
+  options.cancellation = stop_token();
   options.make_executor = worker_executor(optimize::useful_workers(study, flags.workers), flags.common.thread_count());
   return options;
 }
@@ -73,6 +72,7 @@ results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run)
   options.threads = flags.common.thread_count();
   options.run_file = run_file;
   options.resume = true;
+  options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);

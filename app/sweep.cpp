@@ -15,7 +15,6 @@
 #include "optimize/search/study.h"
 #include "report/plot.h"
 #include "report/plot_sweep.h"
-#include "solver/run.h"
 
 namespace perfora::app {
 
@@ -40,7 +39,7 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.force = flags.common.force;
   options.command_line = command_line();
   options.keep_run_files = sweep.keys.run_files;
-  options.stop_requested = [] { return solver::stop_requested(); };
+  options.cancellation = stop_token();
   options.make_executor = worker_executor(sweep.workers(flags.workers), flags.common.thread_count());
   return options;
 }

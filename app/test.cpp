@@ -39,6 +39,7 @@ int test(const TestFlags& flags) {
   optimize::MaterialTestsOptions options;
   options.threads = flags.common.thread_count();
   options.replicates = flags.replicates;
+  options.cancellation = stop_token();
   options.progress = progress.callback();
   const optimize::MaterialTests tests = optimize::test_material(design, kinds, options);
   progress.finish(fmt::format("{}, {}", tests.reason, duration_text(tests.performance.seconds)));

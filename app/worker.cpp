@@ -17,7 +17,7 @@ int work(int threads) {
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
     const optimize::Request request = optimize::request_from_json(nlohmann::json::parse(line));
-    const optimize::Evaluation evaluation = optimize::evaluate_request(request, threads);
+    const optimize::Evaluation evaluation = optimize::evaluate_request(request, threads, stop_token());
     print_text(optimize::to_json(evaluation, true).dump() + "\n");
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.

@@ -11,7 +11,7 @@ namespace perfora::geometry {
 
 Packing clip_packing(const Packing& packing, const PerforationLayout& layout, ClipRule rule) {
   double largest_hole = 0.0;
-  for (const Perforation& hole : layout.perforations) largest_hole = std::max(largest_hole, 0.5 * hole.diameter);
+  for (const Perforation& hole : layout.perforations) largest_hole = std::max(largest_hole, hole.reach());
   const double largest_disc =
       packing.radius.empty() ? 0.0 : *std::max_element(packing.radius.begin(), packing.radius.end());
   const double reach = std::max(largest_hole + largest_disc, 1e-3 * std::min(packing.width, packing.height));
@@ -21,11 +21,11 @@ Packing clip_packing(const Packing& packing, const PerforationLayout& layout, Cl
   for (std::size_t i = 0; i < packing.x.size(); ++i) {
     bool taken = false;
     holes.for_each_near(packing.x[i], packing.y[i], [&](std::int32_t index) {
-      Perforation hole = layout.perforations[static_cast<std::size_t>(index)];
+      const Perforation& hole = layout.perforations[static_cast<std::size_t>(index)];
       const double dx = nearest_image(packing.x[i] - hole.x, packing.width, 0.5 * packing.width);
       const double dy = nearest_image(packing.y[i] - hole.y, packing.height, 0.5 * packing.height);
-      if (rule == ClipRule::whole) hole.diameter += 2.0 * packing.radius[i];
-      taken = taken || hole.contains(hole.x + dx, hole.y + dy);
+      const double margin = rule == ClipRule::whole ? packing.radius[i] : 0.0;
+      taken = taken || hole.contains(hole.x + dx, hole.y + dy, margin);
     });
     if (taken) continue;
     x.push_back(packing.x[i]);

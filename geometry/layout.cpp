@@ -176,7 +176,7 @@ class Layouter {
       throw io::InputError(origin, name + " at (" + millimetres(x) + ", " + millimetres(y) + ") lies outside the cell",
                            "0 to " + millimetres(layout.width) + " in x, 0 to " + millimetres(layout.height) + " in y",
                            "give centres in metres within the cell");
-    layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), diameter});
+    layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), Circle{diameter}});
   }
 
   const LayoutOptions& options_;
@@ -293,9 +293,9 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   }
   PerforationLayout layout = layouter.place();
   for (std::size_t k = 0; k < layout.perforations.size(); ++k)
-    layouter.refuse_unless(layout.perforations[k].diameter < side, size_key(options.family),
-                           "hole " + std::to_string(k + 1) + " of " + millimetres(layout.perforations[k].diameter) +
-                               " is larger than the cell",
+    layouter.refuse_unless(layout.perforations[k].largest_extent() < side, size_key(options.family),
+                           "hole " + std::to_string(k + 1) + " of " +
+                               millimetres(layout.perforations[k].largest_extent()) + " is larger than the cell",
                            "less than " + millimetres(side),
                            std::string(smaller_holes(options.family)) + " or enlarge the cell");
   const ThinnestWall wall = thinnest_wall(layout);

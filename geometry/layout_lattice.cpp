@@ -42,7 +42,8 @@ std::vector<Perforation> place_in_rows(const LayoutOptions& options, double stag
     const double height_share = options.rows > 1 ? static_cast<double>(row) / (options.rows - 1) : 0.5;
     const double diameter = options.diameter * (1.0 + grading * (height_share - 0.5));
     for (int column = 0; column < options.columns; ++column)
-      holes.push_back({(column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, (row + 0.5) * pitch_y, diameter});
+      holes.push_back(
+          {(column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, (row + 0.5) * pitch_y, Circle{diameter}});
   }
   return holes;
 }
@@ -57,7 +58,8 @@ std::vector<Perforation> place_turned(const LayoutOptions& options) {
   const std::int64_t lines = std::gcd(turn, rows);
   std::vector<Perforation> holes;
   for (std::int64_t m = 0; m < lines; ++m)
-    for (std::int64_t k = 0; k < count / lines; ++k) holes.push_back({x.at(k, m), y.at(k, m), options.diameter});
+    for (std::int64_t k = 0; k < count / lines; ++k)
+      holes.push_back({x.at(k, m), y.at(k, m), Circle{options.diameter}});
   return holes;
 }
 

@@ -100,7 +100,7 @@ bool push_apart(RandomPlacement& placement, double width, double height, double 
 RandomPlacement place_at_random(double width, double height, int count, double diameter, double spacing,
                                 std::uint64_t seed) {
   RandomPlacement placement;
-  placement.perforations.assign(static_cast<std::size_t>(count), Perforation{0.0, 0.0, diameter});
+  placement.perforations.assign(static_cast<std::size_t>(count), Perforation{0.0, 0.0, Circle{diameter}});
   if (count == 0) return placement;
   const double fraction = count * 0.25 * std::numbers::pi * spacing * spacing / (width * height);
   const bool possible = fraction <= densest_fraction && spacing <= std::min(width, height);

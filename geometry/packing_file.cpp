@@ -99,7 +99,7 @@ void write_layout(io::Hdf5Writer& file, const std::string& group, const Perforat
   for (const Perforation& hole : layout.perforations) {
     x.push_back(hole.x);
     y.push_back(hole.y);
-    diameter.push_back(hole.diameter);
+    diameter.push_back(std::get<Circle>(hole.shape).diameter);
   }
   file.group(group);
   file.dataset(group + "/x", std::span<const double>(x), 0, "m");
@@ -127,7 +127,7 @@ PerforationLayout read_layout(const io::Hdf5Reader& file, const std::string& gro
   const std::vector<double> x = file.doubles(group + "/x"), y = file.doubles(group + "/y"),
                             diameter = file.doubles(group + "/diameter");
   check_arrays(file, group, "diameter", layout.width, layout.height, x, y, diameter);
-  for (std::size_t k = 0; k < x.size(); ++k) layout.perforations.push_back({x[k], y[k], diameter[k]});
+  for (std::size_t k = 0; k < x.size(); ++k) layout.perforations.push_back({x[k], y[k], Circle{diameter[k]}});
   return layout;
 }
 

@@ -1,34 +1,94 @@
-// What is here: the three questions asked of a circular perforation, and the area a layout leaves.
-// What is not: the search over pairs (wall.cpp).
+// What is here: the questions asked of a perforation, handed to its shape, and what follows for a whole layout.
+// What is not: plane geometry of a shape (shapes.cpp), the search over pairs (wall.cpp).
 #include "geometry/perforation.h"
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace perfora::geometry {
 
-bool Perforation::contains(double px, double py) const {
-  const double dx = px - x, dy = py - y, radius = 0.5 * diameter;
-  return dx * dx + dy * dy < radius * radius;
+bool Perforation::contains(double px, double py, double margin) const {
+  return std::visit([&](const auto& s) { return s.contains({x, y}, {px, py}, margin); }, shape);
 }
 
 double Perforation::segment_depth(double ax, double ay, double bx, double by) const {
-  const double ux = bx - ax, uy = by - ay;
-  const double squared = ux * ux + uy * uy;
-  const double along = squared > 0.0 ? std::clamp(((x - ax) * ux + (y - ay) * uy) / squared, 0.0, 1.0) : 0.0;
-  const double distance = std::hypot(ax + along * ux - x, ay + along * uy - y);
-  return std::max(0.0, 0.5 * diameter - distance);
+  return std::visit([&](const auto& s) { return s.segment_depth({x, y}, {ax, ay}, {bx, by}); }, shape);
+}
+
+double Perforation::deepest_dip(double length) const {
+  return std::visit([&](const auto& s) { return s.deepest_dip(length); }, shape);
 }
 
 double Perforation::signed_gap(const Perforation& other, double shift_x, double shift_y) const {
-  return std::hypot(other.x + shift_x - x, other.y + shift_y - y) - 0.5 * (diameter + other.diameter);
+  const Point here{x, y}, there{other.x + shift_x, other.y + shift_y};
+  return std::visit([&](const auto& a, const auto& b) { return geometry::signed_gap(a, here, b, there); }, shape,
+                    other.shape);
+}
+
+double Perforation::gap_to_image(double shift_x, double shift_y) const {
+  return std::visit([&](const auto& s) { return s.gap_to_image(shift_x, shift_y); }, shape);
+}
+
+Bounds Perforation::bounds() const {
+  return std::visit([&](const auto& s) { return s.bounds({x, y}); }, shape);
+}
+
+double Perforation::area() const {
+  return std::visit([](const auto& s) { return s.area(); }, shape);
+}
+
+double Perforation::reach() const {
+  return std::visit([](const auto& s) { return s.reach(); }, shape);
+}
+
+double Perforation::largest_extent() const {
+  return std::visit([](const auto& s) { return s.largest_extent(); }, shape);
+}
+
+double Perforation::smallest_extent() const {
+  return std::visit([](const auto& s) { return s.smallest_extent(); }, shape);
+}
+
+double Perforation::level_chord(double offset) const {
+  return std::visit([&](const auto& s) { return s.level_chord(offset); }, shape);
+}
+
+double Perforation::upright_chord(double offset) const {
+  return std::visit([&](const auto& s) { return s.upright_chord(offset); }, shape);
+}
+
+double Perforation::shared_area(double distance) const {
+  return std::visit([&](const auto& s) { return s.shared_area(distance); }, shape);
+}
+
+std::vector<Arc> Perforation::outline(double tolerance) const {
+  return std::visit([&](const auto& s) { return s.outline({x, y}, tolerance); }, shape);
+}
+
+Perforation Perforation::moved_by(double dx, double dy) const {
+  return {x + dx, y + dy, shape};
+}
+
+Perforation Perforation::clear_of(std::span<const NearDisc> discs, double reach) const {
+  return {x, y, std::visit([&](const auto& s) { return Shape(s.clear_of(discs, reach)); }, shape)};
 }
 
 double PerforationLayout::solid_area_fraction() const {
   double area = 0.0;
-  for (const Perforation& hole : perforations) area += 0.25 * std::numbers::pi * hole.diameter * hole.diameter;
+  for (const Perforation& hole : perforations) area += hole.area();
   return 1.0 - area / (width * height);
+}
+
+std::vector<Perforation> PerforationLayout::cut_out(bool cut_x, bool cut_y) const {
+  std::vector<Perforation> holes;
+  const int images_x = cut_x ? 1 : 0, images_y = cut_y ? 1 : 0;
+  for (const Perforation& hole : perforations)
+    for (int a = -images_x; a <= images_x; ++a)
+      for (int b = -images_y; b <= images_y; ++b) {
+        const Perforation image = hole.moved_by(a * width, b * height);
+        const Bounds box = image.bounds();
+        const bool reaches_x = !cut_x || (box.right > 0.0 && box.left < width);
+        const bool reaches_y = !cut_y || (box.top > 0.0 && box.bottom < height);
+        if (reaches_x && reaches_y) holes.push_back(image);
+      }
+  return holes;
 }
 
 }  // namespace perfora::geometry

@@ -13,11 +13,17 @@ namespace {
 /// Below this many holes all pairs are cheaper than nine times as many sites of a graph.
 constexpr std::size_t brute_force_holes = 256;
 
+/// The graph is one of circles; with any other shape among the holes all pairs are compared.
+bool all_circles(const PerforationLayout& layout) {
+  return std::all_of(layout.perforations.begin(), layout.perforations.end(),
+                     [](const Perforation& hole) { return std::holds_alternative<Circle>(hole.shape); });
+}
+
 }  // namespace
 
 ThinnestWall thinnest_wall(const PerforationLayout& layout) {
-  return layout.perforations.size() <= brute_force_holes ? thinnest_wall_brute_force(layout)
-                                                         : thinnest_wall_apollonius(layout);
+  return layout.perforations.size() <= brute_force_holes || !all_circles(layout) ? thinnest_wall_brute_force(layout)
+                                                                                 : thinnest_wall_apollonius(layout);
 }
 
 ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {
@@ -28,7 +34,9 @@ ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {
   const auto nearest = [](double difference, double period) { return -period * std::round(difference / period); };
   for (std::size_t i = 0; i < layout.perforations.size(); ++i) {
     const Perforation& a = layout.perforations[i];
-    offer(std::min(layout.width, layout.height) - a.diameter, i, i);
+    for (const Point& image : {Point{layout.width, 0.0}, Point{0.0, layout.height}, Point{layout.width, layout.height},
+                               Point{layout.width, -layout.height}})
+      offer(a.gap_to_image(image.x, image.y), i, i);
     for (std::size_t j = i + 1; j < layout.perforations.size(); ++j) {
       const Perforation& b = layout.perforations[j];
       offer(a.signed_gap(b, nearest(b.x - a.x, layout.width), nearest(b.y - a.y, layout.height)), i, j);

@@ -1,5 +1,6 @@
 // What is here: the thinnest wall from the Apollonius graph (additively weighted Voronoi diagram) of the holes and
-// their periodic images. What is not: the definition (wall.cpp), which this is tested against.
+// their periodic images, for circular holes alone (thinnest_wall compares all pairs where there are others).
+// What is not: the definition (wall.cpp), which this is tested against.
 #include <CGAL/Apollonius_graph_2.h>
 #include <CGAL/Apollonius_graph_filtered_traits_2.h>
 #include <CGAL/Apollonius_graph_hierarchy_2.h>
@@ -47,11 +48,12 @@ ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout) {
   std::vector<bool> hidden(holes.size(), false);
   for (std::size_t i = 0; i < holes.size(); ++i) {
     const int hole = static_cast<int>(i);
-    offer(std::min(layout.width, layout.height) - holes[i].diameter, hole, hole);
+    const double diameter = std::get<Circle>(holes[i].shape).diameter;
+    offer(std::min(layout.width, layout.height) - diameter, hole, hole);
     for (int row = -1; row <= 1; ++row)
       for (int column = -1; column <= 1; ++column) {
         const Image image{hole, column * layout.width, row * layout.height};
-        const Graph::Site_2 site({holes[i].x + image.shift_x, holes[i].y + image.shift_y}, 0.5 * holes[i].diameter);
+        const Graph::Site_2 site({holes[i].x + image.shift_x, holes[i].y + image.shift_y}, 0.5 * diameter);
         if (images.emplace(key_of(site), image).second)
           graph.insert(site);
         else

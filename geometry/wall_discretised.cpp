@@ -1,7 +1,7 @@
 // What is here: the thinnest wall as the clipped discs build it.
 // What is not: the exact wall of the layout (wall.cpp).
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "geometry/cell_grid.h"
 #include "geometry/layout.h"
@@ -9,32 +9,31 @@
 
 namespace perfora::geometry {
 
-// The void of a hole is the largest circle about its centre that no disc enters. Discs whose centre lies just outside
-// the hole reach into it, so with ClipRule::centre the voids are smaller than the holes and the walls wider.
+// The void of a hole is the hole with its rim moved until no disc enters it: of a circle the largest about its centre.
+// Discs whose centre lies just outside the hole reach into it, so with ClipRule::centre the voids are smaller than the
+// holes and the walls wider.
 double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout& layout) {
   const ThinnestWall exact = thinnest_wall(layout);
   if (exact.first < 0 || clipped.x.empty()) return exact.thickness;
   double largest_hole = 0.0;
-  for (const Perforation& hole : layout.perforations) largest_hole = std::max(largest_hole, 0.5 * hole.diameter);
+  for (const Perforation& hole : layout.perforations) largest_hole = std::max(largest_hole, hole.reach());
   const double largest_disc = *std::max_element(clipped.radius.begin(), clipped.radius.end());
-  struct Point {
-    double x, y;
-  };
   // Discs farther than this from a hole's centre cannot be nearest to it unless the neighbourhood is empty.
   const double reach = largest_hole + 4.0 * largest_disc;
   const CellGrid grid(clipped.width, clipped.height, reach, clipped.x.size(), [&](std::size_t i) {
     return Point{clipped.x[i], clipped.y[i]};
   });
   PerforationLayout voids = layout;
+  std::vector<NearDisc> near;
   for (Perforation& hole : voids.perforations) {
-    double radius = reach;
+    near.clear();
     grid.for_each_near(hole.x, hole.y, [&](std::int32_t index) {
       const std::size_t i = static_cast<std::size_t>(index);
       const double dx = nearest_image(clipped.x[i] - hole.x, clipped.width, 0.5 * clipped.width);
       const double dy = nearest_image(clipped.y[i] - hole.y, clipped.height, 0.5 * clipped.height);
-      radius = std::min(radius, std::hypot(dx, dy) - clipped.radius[i]);
+      near.push_back({{dx, dy}, clipped.radius[i]});
     });
-    hole.diameter = 2.0 * std::max(0.0, radius);
+    hole = hole.clear_of(near, reach);
   }
   return thinnest_wall(voids).thickness;
 }

@@ -92,6 +92,27 @@ double shown_beyond(const BlockPicture& block) {
   return std::min(farthest, most_share * block.h_xx);
 }
 
+/// Calls paint(context) on the path of every hole and every periodic image next to the cell, the layout drawn in `box`.
+void for_outlines(cairo_t* context, const Box& box, const geometry::PerforationLayout& layout,
+                  void (*paint)(cairo_t*)) {
+  const double scale = box.width / layout.width;
+  constexpr double visible = 0.1;  // of a point of the page: no one sees a rim that is off by less
+  for (const geometry::Perforation& hole : layout.perforations) {
+    // On the page y runs downwards: the rim is followed backwards, and its arcs keep their sense.
+    std::vector<geometry::Arc> outline = hole.outline(visible / scale);
+    std::reverse(outline.begin(), outline.end());
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b) {
+        cairo_new_path(context);
+        for (const geometry::Arc& arc : outline)
+          cairo_arc(context, box.x + (arc.centre.x + a * layout.width) * scale,
+                    box.bottom() - (arc.centre.y + b * layout.height) * scale, arc.radius * scale, -arc.to, -arc.from);
+        cairo_close_path(context);
+        paint(context);
+      }
+  }
+}
+
 void paint_discs(cairo_t* context, const BlockPicture& block, bool ground, double rim) {
   for (std::size_t k = 0; k < block.x.size(); ++k) {
     const double radius = block.radius[k] * (ground ? 1.0 + block.growth[k] : rim_share);
@@ -221,18 +242,9 @@ void draw_perforation_rims(Canvas& canvas, const Box& box, const geometry::Perfo
   cairo_save(context);
   cairo_rectangle(context, box.x, box.y, box.width, box.height);
   cairo_clip(context);
-  const double scale = box.width / layout.width;
   set_colour(context, colour);
   cairo_set_line_width(context, 1.8);
-  for (const geometry::Perforation& hole : layout.perforations)
-    for (int a = -1; a <= 1; ++a)
-      for (int b = -1; b <= 1; ++b) {
-        cairo_new_sub_path(context);
-        cairo_arc(context, box.x + (hole.x + a * layout.width) * scale,
-                  box.bottom() - (hole.y + b * layout.height) * scale, hole.diameter / 2.0 * scale, 0.0,
-                  2.0 * std::numbers::pi);
-        cairo_stroke(context);
-      }
+  for_outlines(context, box, layout, cairo_stroke);
   cairo_restore(context);
 }
 
@@ -242,17 +254,8 @@ void draw_layout(Canvas& canvas, const Box& box, const geometry::PerforationLayo
   cairo_save(context);
   cairo_rectangle(context, box.x, box.y, box.width, box.height);
   cairo_clip(context);
-  const double scale = box.width / layout.width;
   set_colour(context, palette::paper);
-  for (const geometry::Perforation& hole : layout.perforations)
-    for (int a = -1; a <= 1; ++a)
-      for (int b = -1; b <= 1; ++b) {
-        cairo_new_sub_path(context);
-        cairo_arc(context, box.x + (hole.x + a * layout.width) * scale,
-                  box.bottom() - (hole.y + b * layout.height) * scale, hole.diameter / 2.0 * scale, 0.0,
-                  2.0 * std::numbers::pi);
-        cairo_fill(context);
-      }
+  for_outlines(context, box, layout, cairo_fill);
   cairo_restore(context);
   draw_perforation_rims(canvas, box, layout, palette::concrete_edge);
   canvas.frame(box, palette::ink, 1.6);

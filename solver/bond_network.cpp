@@ -28,35 +28,41 @@ Branch minimum_image(const geometry::Packing& packing, std::int32_t i, std::int3
   return {dx, dy};
 }
 
-/// Depth of the segment from disc i along the branch in the perforations, periodic images included.
+/// The perforations, periodic images included, that lie between discs.
 class Perforations {
  public:
-  Perforations(const geometry::PerforationLayout& layout, double longest) : layout_(layout) {
-    // A chord of length l dips into a circle of radius R by at most R - sqrt(R^2 - l^2/4): holes where that stays below
-    // the allowed dip need no test.
-    longest_ = longest;
+  /// For segments no longer than `longest`, which may dip into a hole by `allowed`. Holes into which none dips deeper
+  /// need no test.
+  Perforations(const geometry::PerforationLayout& layout, double longest, double allowed)
+      : width_(layout.width), height_(layout.height), allowed_(allowed) {
+    for (const geometry::Perforation& hole : layout.perforations) {
+      const double far = hole.reach() + longest;
+      if (hole.deepest_dip(longest) > allowed) holes_.push_back({hole, far * far});
+    }
   }
-  bool separates(double x, double y, const Branch& branch, double allowed) const {
-    for (const geometry::Perforation& hole : layout_.perforations) {
-      const double radius = 0.5 * hole.diameter;
-      if (radius > 0.5 * longest_ && radius - std::sqrt(radius * radius - 0.25 * longest_ * longest_) <= allowed)
-        continue;
+  /// Whether a hole separates the ends of the segment from (x, y) along the branch.
+  bool separates(double x, double y, const Branch& branch) const {
+    for (const Hole& hole : holes_) {
       // Image of the hole nearest to the middle of the segment.
-      double cx = hole.x - (x + 0.5 * branch.x), cy = hole.y - (y + 0.5 * branch.y);
-      cx -= layout_.width * std::nearbyint(cx / layout_.width);
-      cy -= layout_.height * std::nearbyint(cy / layout_.height);
-      if (cx * cx + cy * cy > (radius + longest_) * (radius + longest_)) continue;
-      geometry::Perforation near = hole;
+      double cx = hole.perforation.x - (x + 0.5 * branch.x), cy = hole.perforation.y - (y + 0.5 * branch.y);
+      cx -= width_ * std::nearbyint(cx / width_);
+      cy -= height_ * std::nearbyint(cy / height_);
+      if (cx * cx + cy * cy > hole.far_squared) continue;
+      geometry::Perforation near = hole.perforation;
       near.x = x + 0.5 * branch.x + cx;
       near.y = y + 0.5 * branch.y + cy;
-      if (near.segment_depth(x, y, x + branch.x, y + branch.y) > allowed) return true;
+      if (near.segment_depth(x, y, x + branch.x, y + branch.y) > allowed_) return true;
     }
     return false;
   }
 
  private:
-  const geometry::PerforationLayout& layout_;
-  double longest_;
+  struct Hole {
+    geometry::Perforation perforation;
+    double far_squared;  ///< no segment whose middle lies farther from the centre reaches into the hole
+  };
+  double width_, height_, allowed_;
+  std::vector<Hole> holes_;
 };
 
 template <class Found>
@@ -66,7 +72,7 @@ void find_bonds(const geometry::Packing& packing, const geometry::PerforationLay
   double largest_radius = 0.0;
   for (const double radius : packing.radius) largest_radius = std::max(largest_radius, radius);
   const double reach = std::max(r_h, 2.0 * largest_radius);
-  const Perforations perforations(layout, reach);
+  const Perforations perforations(layout, reach, allowed_dip * mean_diameter);
   CellGrid grid;
   grid.build(packing.size(), reach / packing.width, reach / packing.height, [&](std::int32_t k) {
     const auto at = static_cast<std::size_t>(k);
@@ -85,7 +91,7 @@ void find_bonds(const geometry::Packing& packing, const geometry::PerforationLay
       const double touch = packing.radius[at] + packing.radius[static_cast<std::size_t>(j)];
       const double limit = std::max(r_h, touch);
       if (branch.x * branch.x + branch.y * branch.y > limit * limit) continue;
-      if (perforations.separates(packing.x[at], packing.y[at], branch, allowed_dip * mean_diameter)) continue;
+      if (perforations.separates(packing.x[at], packing.y[at], branch)) continue;
       found(i, j, branch);
     }
   }

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "io/error.h"
-#include "solver/run.h"
 
 namespace perfora::solver {
 namespace {
@@ -278,7 +277,7 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
       result.reason = in_two ? "the sample is in two" : fmt::format("{:.3g} times the strain of the peak", enough);
       break;
     }
-    if (stop_requested()) {
+    if (request.cancellation.requested()) {
       result.status = results::RunStatus::stopped;
       result.reason = "signal";
       break;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/packing.h"
+#include "io/cancellation.h"
 #include "results/break_event.h"
 #include "results/material_file.h"
 #include "results/status.h"
@@ -28,7 +29,8 @@ struct MaterialTestRequest {
   SolverOptions options;
   MaterialTestKind kind = MaterialTestKind::tension;
   std::uint64_t noise_seed = 1;
-  double mean_diameter = 0.0;  ///< <d>, m: r_H = horizon x this
+  double mean_diameter = 0.0;     ///< <d>, m: r_H = horizon x this
+  io::Cancellation cancellation;  ///< requested: the test stops with status `stopped` and reason "signal"
   /// Called now and then with the share of the longest possible test that is done. May be empty.
   std::function<void(double)> progress;
 };

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <limits>
 #include <optional>
 
@@ -26,8 +25,6 @@
 namespace perfora::solver {
 namespace {
 
-volatile std::sig_atomic_t stop_flag = 0;
-
 using Clock = std::chrono::steady_clock;
 
 constexpr double peak_passed_share =
@@ -38,7 +35,7 @@ constexpr double least_peak_strain = 2e-4;  // rows before that are too close to
 constexpr double residual_from_strain =
     0.002;  // the ledger is judged from here on (before it the work is too small to divide by)
 constexpr double unstable_overlap = 1.0;  // overlap over <d> at which discs pass through each other: the run has failed
-constexpr std::int64_t steps_between_looks = 64;  // at the clock and the stop flag
+constexpr std::int64_t steps_between_looks = 64;  // at the clock and the request to stop
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -157,11 +154,11 @@ class Run {
     response_.summary.reason = fmt::format("reached strain {:.6g}", simulation_->strain());
   }
 
-  /// At the clock, the stop flag and the checkpoint; true: stop here.
+  /// At the clock, the request to stop and the checkpoint; true: stop here.
   bool look() {
     const double now = seconds_since(started_);
     const bool out_of_time = request_.wall_time_limit > 0.0 && now > request_.wall_time_limit;
-    const bool stopping = stop_requested() || out_of_time;
+    const bool cancelled = request_.cancellation.requested(), stopping = cancelled || out_of_time;
     // Never store what cannot be gone on with.
     if (!std::isfinite(simulation_->stress().yy) || !std::isfinite(simulation_->kinetic_energy_at_half_step())) {
       response_.summary.status = results::RunStatus::failed;
@@ -176,7 +173,7 @@ class Run {
     }
     if (stopping) {
       response_.summary.status = results::RunStatus::stopped;
-      response_.summary.reason = stop_requested() ? "signal" : "wall time";
+      response_.summary.reason = cancelled ? "signal" : "wall time";
     }
     return stopping;
   }
@@ -359,13 +356,6 @@ class Run {
 };
 
 }  // namespace
-
-void request_stop() {
-  stop_flag = 1;
-}
-bool stop_requested() {
-  return stop_flag != 0;
-}
 
 Response run_compression(const RunRequest& request) {
   return Run(request).execute();

@@ -8,7 +8,8 @@
 
 namespace perfora::solver {
 
-/// Bonds, compresses, measures, writes. Numerical trouble is summary.status = failed with its reason; bad input throws
+/// Bonds, compresses, measures, writes. A stop (request.cancellation, the wall time) writes a checkpoint and gives
+/// summary.status = stopped. Numerical trouble is summary.status = failed with its reason; bad input throws
 /// io::InputError.
 Response run_compression(const RunRequest& request);
 
@@ -19,10 +20,5 @@ struct RunEstimate {
   double time_step = 0.0, rate = 0.0;
 };
 RunEstimate estimate_run(const RunRequest& request);
-
-/// Asks a running compression in this process to write a checkpoint and stop (async-signal-safe): for SIGTERM and
-/// SIGINT handlers.
-void request_stop();
-bool stop_requested();
 
 }  // namespace perfora::solver

@@ -9,6 +9,7 @@
 
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
+#include "io/cancellation.h"
 #include "results/history.h"
 #include "results/provenance.h"
 #include "results/summary.h"
@@ -31,7 +32,8 @@ struct RunRequest {
   bool resume = false;  ///< go on from R.part/ when it holds a checkpoint of the same configuration
   const geometry::Packing* periodic = nullptr;  ///< unclipped packing for /packing in R.h5; may be null
   results::Provenance provenance;               ///< all but simd, threads and seconds
-  double wall_time_limit = 0.0;  ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
+  double wall_time_limit = 0.0;   ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.
+  io::Cancellation cancellation;  ///< requested: a checkpoint is written, the run stops with reason "signal"
   /// /summary of R.h5, made from the finished response (what `perfora evaluate --json` prints). May be empty.
   std::function<nlohmann::json(const Response&)> summary;
   /// Called at history rows: fraction done and a line with strain, stress, rate. May be empty.

@@ -24,7 +24,7 @@ void refuse_missing_simd(SimdChoice simd) {
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout) {
   LoadedBlock block{layout.width, layout.height, 0.0};
   for (const geometry::Perforation& hole : layout.perforations)
-    block.largest_hole = std::max(block.largest_hole, hole.diameter);
+    block.largest_hole = std::max(block.largest_hole, hole.largest_extent());
   return block;
 }
 

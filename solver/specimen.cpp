@@ -51,22 +51,6 @@ void add_beds(WallPlace& wall, const geometry::Packing& clipped, const BondNetwo
     if (normal[d] > 0.0) wall.beds.push_back({static_cast<std::int32_t>(d), normal[d], tangential[d]});
 }
 
-/// The holes and their images across cut edges as far as they reach into the block.
-std::vector<geometry::Perforation> cut_holes(const geometry::PerforationLayout& layout, const BlockFrame& block,
-                                             const Span& x, const Span& y) {
-  std::vector<geometry::Perforation> holes;
-  const int images_x = block.open_x ? 1 : 0, images_y = block.open_y ? 1 : 0;
-  for (const geometry::Perforation& hole : layout.perforations)
-    for (int a = -images_x; a <= images_x; ++a)
-      for (int b = -images_y; b <= images_y; ++b) {
-        const double hx = hole.x + a * layout.width, hy = hole.y + b * layout.height, radius = 0.5 * hole.diameter;
-        const bool reaches_x = !block.open_x || (hx + radius > 0.0 && hx - radius < layout.width);
-        const bool reaches_y = !block.open_y || (hy + radius > 0.0 && hy - radius < layout.height);
-        if (reaches_x && reaches_y) holes.push_back({hx + x.offset, hy + y.offset, hole.diameter});
-      }
-  return holes;
-}
-
 }  // namespace
 
 std::pair<double, double> BlockFrame::position(std::uint64_t sx, std::uint64_t sy, const CellMatrix& cell) const {
@@ -115,7 +99,8 @@ Specimen make_specimen(const geometry::Packing& clipped, const geometry::Perfora
   s.block.share_x = layout.width / x.cell;
   s.block.share_y = layout.height / y.cell;
   s.field = {layout.width, layout.height, x.offset, y.offset};
-  s.layout = {x.cell, y.cell, cut_holes(layout, s.block, x, y)};
+  s.layout = {x.cell, y.cell, layout.cut_out(s.block.open_x, s.block.open_y)};
+  for (geometry::Perforation& hole : s.layout.perforations) hole = hole.moved_by(x.offset, y.offset);
   s.packing.width = x.cell;
   s.packing.height = y.cell;
   for (double& place : s.packing.x) place += x.offset;

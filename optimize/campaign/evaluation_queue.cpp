@@ -127,17 +127,16 @@ void EvaluationQueue::drop_run_file(const std::string& key) const {
 }
 
 bool EvaluationQueue::run(const Next& next, const Answered& answered) {
-  const auto asked_to_stop = [&] { return options_.stop_requested && options_.stop_requested(); };
   std::unique_ptr<Executor> executor;
   std::vector<Asked> wanted = next();
-  bool stopped = asked_to_stop();
+  bool stopped = options_.cancellation.requested();
   while (!wanted.empty() && !stopped) {
     if (!executor) executor = options_.make_executor();
     workers_ = executor->workers();
     for (const Asked& asked : wanted)
       if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
     std::optional<Answer> answer = executor->next(look_interval);
-    stopped = asked_to_stop();
+    stopped = options_.cancellation.requested();
     if (!answer || answer->evaluation.status == results::RunStatus::stopped) {
       stopped = stopped || answer;
       continue;

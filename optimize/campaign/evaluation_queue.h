@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cancellation.h"
 #include "optimize/campaign/executor.h"
 
 namespace perfora::io {
@@ -40,8 +41,9 @@ struct WorkOptions {
   /// Run files of finished simulations stay in DIR/runs, with a few frames; otherwise only those that were stopped or
   /// killed, which are gone on with.
   bool keep_run_files = false;
-  /// Asked often; true: end the workers, note the stop in the journal and return.
-  std::function<bool()> stop_requested;
+  /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
+  /// what runs only if their evaluation was given a token, too.
+  io::Cancellation cancellation;
 };
 
 /// The journal of a folder as answers, and the loop that adds to it.

@@ -140,7 +140,7 @@ void check_walls(const geometry::PerforationLayout& layout, const io::Schema& sc
 void warn_about_holes(const geometry::PerforationLayout& layout, const Design& design,
                       std::vector<std::string>& warnings) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const geometry::Perforation& hole : layout.perforations) smallest = std::min(smallest, hole.diameter);
+  for (const geometry::Perforation& hole : layout.perforations) smallest = std::min(smallest, hole.smallest_extent());
   if (smallest < design.packing.maximum_diameter && design.packing.file.empty())
     warnings.push_back(
         fmt::format("the smallest hole, {:.4g} mm, is smaller than the largest disc, {:.4g} mm: it may take "

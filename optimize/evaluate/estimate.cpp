@@ -21,22 +21,16 @@ namespace {
 /// of its neighbours.
 constexpr double missing_discs = 0.6;
 
-/// Area shared by two discs of diameter d whose centres are h apart.
-double lens_area(double diameter, double h) {
-  const double radius = 0.5 * diameter;
-  if (h >= diameter) return 0.0;
-  return 2.0 * radius * radius * std::acos(h / diameter) - 0.5 * h * std::sqrt(diameter * diameter - h * h);
-}
-
-/// Integral of the shared area of all holes over displacements up to `radius`: 2 pi int h lens(h) dh (Simpson's rule).
+/// Integral of the shared area of all holes over displacements up to `radius`: 2 pi int h shared(h) dh (Simpson's
+/// rule).
 double shared_hole_area(const geometry::PerforationLayout& layout, double radius) {
-  constexpr int intervals = 64;  // the integrand is smooth up to h = d: error far below a per mille
+  constexpr int intervals = 64;  // the integrand is smooth up to h = a hole's width: error far below a per mille
   const double step = radius / intervals;
   double total = 0.0;
   for (int k = 0; k <= intervals; ++k) {
     const double h = k * step;
     double area = 0.0;
-    for (const geometry::Perforation& hole : layout.perforations) area += lens_area(hole.diameter, h);
+    for (const geometry::Perforation& hole : layout.perforations) area += hole.shared_area(h);
     const double weight = k == 0 || k == intervals ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
     total += weight * 2.0 * std::numbers::pi * h * area;
   }
@@ -122,16 +116,12 @@ double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double
 
 double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,
                           double density, double radius) {
-  // Chord of a hole in the edge, of the image of the hole that is nearest to it.
-  const auto chord = [](double place, double period, double diameter) {
-    const double off = std::remainder(place, period);
-    return std::sqrt(std::max(0.0, diameter * diameter - 4.0 * off * off));
-  };
   double level = boundary.top_bottom == solver::TopBottom::periodic ? 0.0 : layout.width;
   double upright = boundary.sides == solver::Sides::periodic ? 0.0 : layout.height;
   for (const geometry::Perforation& hole : layout.perforations) {
-    if (level > 0.0) level -= chord(hole.y, layout.height, hole.diameter);
-    if (upright > 0.0) upright -= chord(hole.x, layout.width, hole.diameter);
+    // What the image nearest to an edge cuts out of it.
+    if (level > 0.0) level -= hole.level_chord(-std::remainder(hole.y, layout.height));
+    if (upright > 0.0) upright -= hole.upright_chord(-std::remainder(hole.x, layout.width));
   }
   return 2.0 / 3.0 * density * density * radius * radius * radius * (std::max(0.0, level) + std::max(0.0, upright));
 }

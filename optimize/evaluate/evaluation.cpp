@@ -140,6 +140,7 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
   request.run_file = options.run_file;
   request.resume = options.resume;
   request.wall_time_limit = options.wall_time_limit;
+  request.cancellation = options.cancellation;
   request.progress = options.progress;
   request.provenance = provenance_of(file, seeds, options.command_line);
   return request;

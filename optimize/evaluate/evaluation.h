@@ -11,6 +11,7 @@
 
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
+#include "io/cancellation.h"
 #include "optimize/evaluate/design.h"
 #include "results/evaluation.h"
 #include "results/json.h"
@@ -25,7 +26,8 @@ struct EvaluateOptions {
   std::filesystem::path packing_file;  ///< P.h5 to take the periodic packing from (its key must agree); empty: make it
                                        ///< or take it from memory
   bool resume = false;
-  double wall_time_limit = 0.0;  ///< s, 0: none
+  double wall_time_limit = 0.0;   ///< s, 0: none
+  io::Cancellation cancellation;  ///< requested: the compression writes a checkpoint and stops
   std::string command_line;
   std::function<void(double, const std::string&)> progress;
 };
@@ -102,6 +104,6 @@ Request make_request(const DesignFile& design, int replicate, double until = 0.0
 void drop_output(Design& design);
 /// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
 /// Evaluation with status `failed` and the reason, so that a search goes on.
-Evaluation evaluate_request(const Request& request, int threads);
+Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation = {});
 
 }  // namespace perfora::optimize

@@ -203,6 +203,7 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
     request.kind = run.result.kind;
     request.noise_seed = sample.design().seeds.effective(run.replicate).noise;
     request.mean_diameter = tests.mean_diameter;
+    request.cancellation = options.cancellation;
     request.progress = [&, k](double fraction) { say(k, fraction); };
     run.result = solver::run_material_test(request);
     say(k, 1.0);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cancellation.h"
 #include "optimize/evaluate/design.h"
 #include "results/statistic.h"
 #include "solver/material_test.h"
@@ -15,8 +16,9 @@
 namespace perfora::optimize {
 
 struct MaterialTestsOptions {
-  int threads = 1;     ///< tests run side by side, each on one thread
-  int replicates = 1;  ///< samples with packings and strength fields of their own
+  int threads = 1;                ///< tests run side by side, each on one thread
+  int replicates = 1;             ///< samples with packings and strength fields of their own
+  io::Cancellation cancellation;  ///< requested: every test stops
   /// Share of all tests done, and a line. May be empty.
   std::function<void(double, const std::string&)> progress;
   /// Called when a test is finished, from one thread at a time. May be empty.
@@ -53,7 +55,7 @@ DesignFile material_sample(const DesignFile& design);
 /// The tests that [test] asks for. Throws io::InputError when it asks for none.
 std::vector<solver::MaterialTestKind> wanted_tests(const DesignFile& design);
 
-/// Runs the `kinds` on every replicate; a stop signal ends all of them. Throws io::InputError for bad input.
+/// Runs the `kinds` on every replicate; a request to stop ends all of them. Throws io::InputError for bad input.
 MaterialTests test_material(const DesignFile& design, const std::vector<solver::MaterialTestKind>& kinds,
                             const MaterialTestsOptions& options);
 

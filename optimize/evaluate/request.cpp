@@ -52,13 +52,14 @@ void drop_output(Design& design) {
   design.solver.output.checkpoint_interval = solver::OutputOptions{}.checkpoint_interval;
 }
 
-Evaluation evaluate_request(const Request& request, int threads) {
+Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation) {
   try {
     DesignFile design = DesignFile::from_toml(request.design_toml, "request");
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
     static_cast<void>(design.validate());
     EvaluateOptions options;
     options.threads = threads;
+    options.cancellation = cancellation;
     options.run_file = request.run_file;
     options.resume = !request.run_file.empty();
     if (request.frames) design.design().solver.output.frames = solver::FrameChoice::few;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cancellation.h"
 #include "optimize/evaluate/material_tests.h"
 
 namespace perfora::optimize {
@@ -81,6 +82,7 @@ struct CalibrationOptions {
   int threads = 1;
   bool resume = false, force = false;
   std::string command_line;
+  io::Cancellation cancellation;                             ///< requested: tests stop, finished ones are kept
   std::function<void(double, const std::string&)> progress;  ///< may be empty
 };
 

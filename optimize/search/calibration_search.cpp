@@ -17,7 +17,6 @@
 #include "optimize/search/study.h"
 #include "solver/elastic/elastic.h"
 #include "solver/mass.h"
-#include "solver/run.h"
 
 namespace perfora::optimize {
 namespace {
@@ -182,7 +181,7 @@ class Search {
     auto found = known_.find(key);
     if (found == known_.end()) {
       const MaterialTests tests = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression});
-      if (tests.status == results::RunStatus::stopped || solver::stop_requested()) return nullptr;
+      if (tests.status == results::RunStatus::stopped || options_.cancellation.requested()) return nullptr;
       json event = {{"event", "point"}, {"key", key}, {"shear_ratio", shear_ratio}, {"rupture_delay", rupture_delay}};
       for (const MaterialTestRun& run : tests.runs)
         event[solver::material_test_name(run.result.kind)].push_back(number(run.result.strength));
@@ -208,6 +207,7 @@ class Search {
     MaterialTestsOptions tests;
     tests.threads = options_.threads;
     tests.replicates = keys_.replicates;
+    tests.cancellation = options_.cancellation;
     tests.progress = options_.progress;
     return test_material(design, kinds, tests);
   }
@@ -330,7 +330,7 @@ class Search {
     const DesignFile design = design_with(result_.found);
     result_.confirmation = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression,
                                               MaterialTestKind::shear, MaterialTestKind::oedometric});
-    if (result_.confirmation.status == results::RunStatus::stopped || solver::stop_requested()) return false;
+    if (result_.confirmation.status == results::RunStatus::stopped || options_.cancellation.requested()) return false;
     write_material_tests(options_.folder / "confirmation.h5", design, result_.confirmation, options_.command_line);
     const std::string suffix = keys_.reading == ElasticReading::plane_strain ? "_plane_strain" : "";
     compare("young_modulus", "young_modulus" + suffix, keys_.young_modulus);

@@ -29,7 +29,7 @@ Packing random_discs(int count, std::uint64_t seed) {
 double distance_to_edge(const Packing& packing, std::size_t i, const Perforation& hole) {
   return std::hypot(std::remainder(packing.x[i] - hole.x, packing.width),
                     std::remainder(packing.y[i] - hole.y, packing.height)) -
-         0.5 * hole.diameter;
+         hole.reach();
 }
 
 TEST(ClipPacking, BothRulesAgreeWithBruteForce) {
@@ -39,7 +39,7 @@ TEST(ClipPacking, BothRulesAgreeWithBruteForce) {
     for (std::uint64_t k = 0; k < 3 * seed; ++k) {
       const auto u = uniform_pair(seed, RandomStream::hole_place, k);
       layout.perforations.push_back(
-          {u[0] * 0.15, u[1] * 0.10, 1e-3 + 0.02 * uniform_pair(seed, RandomStream::hole_jitter, k)[0]});
+          {u[0] * 0.15, u[1] * 0.10, Circle{1e-3 + 0.02 * uniform_pair(seed, RandomStream::hole_jitter, k)[0]}});
     }
     for (ClipRule rule : {ClipRule::centre, ClipRule::whole}) {
       std::set<std::pair<double, double>> left;
@@ -70,7 +70,7 @@ TEST(ClipPacking, NeighboursInSpaceBecomeNeighboursInMemory) {
 
 TEST(ThinnestWallDiscretised, MeasuresBetweenTheCirclesThatDiscsLeaveFree) {
   // Two holes of 20 mm, 50 mm apart; discs of radius 0.5 mm ring them with centres at 10.2 mm: voids of radius 9.7 mm.
-  const PerforationLayout layout{0.15, 0.10, {{0.03, 0.05, 0.02}, {0.08, 0.05, 0.02}}};
+  const PerforationLayout layout{0.15, 0.10, {{0.03, 0.05, Circle{0.02}}, {0.08, 0.05, Circle{0.02}}}};
   Packing ring;
   ring.width = 0.15;
   ring.height = 0.10;

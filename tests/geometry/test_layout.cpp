@@ -132,7 +132,7 @@ TEST(Layout, ListInlineAndFromCsv) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(file_layout.perforations[k].x, inline_layout.perforations[k].x);
     EXPECT_EQ(file_layout.perforations[k].y, inline_layout.perforations[k].y);
-    EXPECT_EQ(file_layout.perforations[k].diameter, inline_layout.perforations[k].diameter);
+    EXPECT_EQ(file_layout.perforations[k].shape, inline_layout.perforations[k].shape);
   }
 }
 

@@ -195,11 +195,11 @@ TEST(Graded, DiametersAreLinearFromTheBottomRowToTheTop) {
       for (const Perforation& hole : holes) {
         // The share of the height that the row is at, from 0 at the lowest centre to 1 at the highest.
         const double share = (hole.y - 0.075 / rows) / (0.15 - 0.15 / rows);
-        EXPECT_NEAR(hole.diameter, 0.008 * (1.0 + grading * (share - 0.5)), rounding);
-        sum += hole.diameter;
+        EXPECT_NEAR(hole.largest_extent(), 0.008 * (1.0 + grading * (share - 0.5)), rounding);
+        sum += hole.largest_extent();
       }
       EXPECT_NEAR(sum / (4.0 * rows), 0.008, rounding);
-      EXPECT_NEAR(holes.front().diameter, 0.008 * (1.0 - grading / 2.0), rounding);
+      EXPECT_NEAR(holes.front().largest_extent(), 0.008 * (1.0 - grading / 2.0), rounding);
       EXPECT_LT(holes.front().y, holes.back().y);
     }
 }

@@ -29,7 +29,7 @@ class PackingFile : public testing::Test {
 };
 
 TEST_F(PackingFile, ComesBackAsItWas) {
-  const PerforationLayout layout{0.15, 0.10, {{0.01, 0.02, 0.003}, {0.05, 0.06, 0.007}}};
+  const PerforationLayout layout{0.15, 0.10, {{0.01, 0.02, Circle{0.003}}, {0.05, 0.06, Circle{0.007}}}};
   {
     io::Hdf5Writer file(path);
     write_packing(file, "/packing", packing);
@@ -55,7 +55,7 @@ TEST_F(PackingFile, ComesBackAsItWas) {
   EXPECT_EQ(read.quality.reason, "why not");
   const PerforationLayout holes = read_layout(file, "/layout");
   ASSERT_EQ(holes.perforations.size(), 2u);
-  EXPECT_EQ(holes.perforations[1].diameter, 0.007);
+  EXPECT_EQ(holes.perforations[1].largest_extent(), 0.007);
   EXPECT_EQ(holes.width, 0.15);
   EXPECT_TRUE(read_layout(file, "/empty").perforations.empty());
 }

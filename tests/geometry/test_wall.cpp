@@ -19,7 +19,7 @@ PerforationLayout random_layout(int count, double scale, std::uint64_t seed) {
     const auto size = uniform_pair(seed, RandomStream::hole_jitter, k);
     // A third power: a few large holes, many small ones, which is what nests.
     const double diameter = spacing * scale * (0.05 + 2.0 * size[0] * size[0] * size[0]);
-    layout.perforations.push_back({place[0] * layout.width, place[1] * layout.height, diameter});
+    layout.perforations.push_back({place[0] * layout.width, place[1] * layout.height, Circle{diameter}});
   }
   return layout;
 }
@@ -40,7 +40,7 @@ TEST(ThinnestWall, NoHolesNoWall) {
 }
 
 TEST(ThinnestWall, OneHoleFacesItsOwnImage) {
-  const PerforationLayout layout{0.15, 0.10, {{0.02, 0.03, 0.04}}};
+  const PerforationLayout layout{0.15, 0.10, {{0.02, 0.03, Circle{0.04}}}};
   for (const ThinnestWall& wall : {thinnest_wall_brute_force(layout), thinnest_wall_apollonius(layout)}) {
     EXPECT_NEAR(wall.thickness, 0.06, 1e-15);
     EXPECT_EQ(wall.first, 0);
@@ -49,17 +49,19 @@ TEST(ThinnestWall, OneHoleFacesItsOwnImage) {
 }
 
 TEST(ThinnestWall, AcrossThePeriodicBoundary) {
-  const PerforationLayout layout{0.15, 0.10, {{0.001, 0.05, 0.01}, {0.14, 0.05, 0.002}}};
+  const PerforationLayout layout{0.15, 0.10, {{0.001, 0.05, Circle{0.01}}, {0.14, 0.05, Circle{0.002}}}};
   for (const ThinnestWall& wall : {thinnest_wall_brute_force(layout), thinnest_wall_apollonius(layout)})
     EXPECT_NEAR(wall.thickness, 0.011 - 0.006, 1e-15);
 }
 
 TEST(ThinnestWall, NestedAndEqualHoles) {
-  const PerforationLayout nested{1.0, 1.0, {{0.5, 0.5, 0.4}, {0.55, 0.5, 0.1}, {0.1, 0.1, 0.05}}};
+  const PerforationLayout nested{
+      1.0, 1.0, {{0.5, 0.5, Circle{0.4}}, {0.55, 0.5, Circle{0.1}}, {0.1, 0.1, Circle{0.05}}}};
   EXPECT_NEAR(thinnest_wall_apollonius(nested).thickness, 0.05 - 0.2 - 0.05, 1e-15);
-  const PerforationLayout nested_first{1.0, 1.0, {{0.55, 0.5, 0.1}, {0.5, 0.5, 0.4}, {0.1, 0.1, 0.05}}};
+  const PerforationLayout nested_first{
+      1.0, 1.0, {{0.55, 0.5, Circle{0.1}}, {0.5, 0.5, Circle{0.4}}, {0.1, 0.1, Circle{0.05}}}};
   EXPECT_NEAR(thinnest_wall_apollonius(nested_first).thickness, 0.05 - 0.2 - 0.05, 1e-15);
-  const PerforationLayout equal{1.0, 1.0, {{0.5, 0.5, 0.4}, {0.5, 0.5, 0.4}}};
+  const PerforationLayout equal{1.0, 1.0, {{0.5, 0.5, Circle{0.4}}, {0.5, 0.5, Circle{0.4}}}};
   EXPECT_NEAR(thinnest_wall_apollonius(equal).thickness, -0.4, 1e-15);
 }
 
@@ -71,8 +73,8 @@ TEST(ThinnestWall, ApolloniusAgreesWithTheDefinitionOverRandomLayouts) {
       layout.perforations.push_back(layout.perforations.front());  // an equal hole
       expect_same(layout, "with an equal hole, seed " + std::to_string(seed));
       Perforation inner = layout.perforations[1];  // one that touches another from inside
-      inner.x += 0.25 * inner.diameter;
-      inner.diameter *= 0.5;
+      inner.x += 0.25 * inner.largest_extent();
+      inner.shape = Circle{0.5 * inner.largest_extent()};
       if (inner.x < layout.width) layout.perforations.push_back(inner);
       expect_same(layout, "with a nested hole, seed " + std::to_string(seed));
     }

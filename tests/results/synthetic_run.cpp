@@ -53,7 +53,8 @@ geometry::PerforationLayout make_layout(double size, int holes) {
   geometry::PerforationLayout layout{size, size, {}};
   const double pitch = size / std::max(holes, 1);
   for (int j = 0; j < holes; ++j)
-    for (int i = 0; i < holes; ++i) layout.perforations.push_back({(i + 0.5) * pitch, (j + 0.5) * pitch, 0.8 * pitch});
+    for (int i = 0; i < holes; ++i)
+      layout.perforations.push_back({(i + 0.5) * pitch, (j + 0.5) * pitch, geometry::Circle{0.8 * pitch}});
   return layout;
 }
 
@@ -63,9 +64,8 @@ geometry::Packing clip(const geometry::Packing& packing, const geometry::Perfora
   clipped.y.clear();
   clipped.radius.clear();
   for (std::size_t k = 0; k < packing.x.size(); ++k) {
-    const bool inside = std::any_of(layout.perforations.begin(), layout.perforations.end(), [&](const auto& hole) {
-      return std::hypot(packing.x[k] - hole.x, packing.y[k] - hole.y) < hole.diameter / 2.0;
-    });
+    const bool inside = std::any_of(layout.perforations.begin(), layout.perforations.end(),
+                                    [&](const auto& hole) { return hole.contains(packing.x[k], packing.y[k]); });
     if (inside) continue;
     clipped.x.push_back(packing.x[k]);
     clipped.y.push_back(packing.y[k]);

@@ -26,7 +26,7 @@ Block make_block(int rows, double hole_diameter, std::uint64_t seed) {
   Block block{test::jittered_packing(rows, mean_diameter, seed), {}};
   geometry::PerforationLayout layout = test::no_holes(block.packing);
   if (hole_diameter > 0.0) {
-    layout.perforations.push_back({0.45 * layout.width, 0.55 * layout.height, hole_diameter});
+    layout.perforations.push_back({0.45 * layout.width, 0.55 * layout.height, geometry::Circle{hole_diameter}});
     block.packing = geometry::clip_packing(block.packing, layout, geometry::ClipRule::centre);
   }
   block.network = make_bond_network(block.packing, layout, MaterialOptions{}, NoiseOptions{}, 1, mean_diameter);

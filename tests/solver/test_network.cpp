@@ -53,8 +53,8 @@ TEST(BondNetwork, NoBondAcrossSmallHoles) {
     test::Uniform u(seed);
     geometry::Packing all = test::jittered_packing(24, 0.5e-3, seed), p = all;
     geometry::PerforationLayout layout = test::no_holes(all);
-    layout.perforations.push_back({0.0, 0.3e-3, u(1.0e-3, 1.5e-3)});
-    layout.perforations.push_back({6e-3 + u(-1e-3, 1e-3), 6e-3, u(1.2e-3, 4e-3)});
+    layout.perforations.push_back({0.0, 0.3e-3, geometry::Circle{u(1.0e-3, 1.5e-3)}});
+    layout.perforations.push_back({6e-3 + u(-1e-3, 1e-3), 6e-3, geometry::Circle{u(1.2e-3, 4e-3)}});
     p.x.clear(), p.y.clear(), p.radius.clear();
     const auto depth = [&](double ax, double ay, double bx, double by) {
       double deepest = 0.0;
@@ -63,7 +63,7 @@ TEST(BondNetwork, NoBondAcrossSmallHoles) {
           for (int iy = -1; iy <= 1; ++iy) {
             const double cx = hole.x + ix * p.width - ax, cy = hole.y + iy * p.height - ay, sx = bx - ax, sy = by - ay;
             const double t = std::clamp((cx * sx + cy * sy) / (sx * sx + sy * sy), 0.0, 1.0);
-            deepest = std::max(deepest, 0.5 * hole.diameter - std::hypot(cx - t * sx, cy - t * sy));
+            deepest = std::max(deepest, hole.reach() - std::hypot(cx - t * sx, cy - t * sy));
           }
       return deepest;
     };

@@ -79,7 +79,7 @@ TEST(Specimen, BondsAndStrengthsAreThoseOfThePeriodicBlock) {
 TEST(Specimen, HolesAcrossACutEdgeStandOnBothSides) {
   const geometry::Packing packing = test::jittered_packing(20, pitch, 4);
   geometry::PerforationLayout layout = test::no_holes(packing);
-  layout.perforations = {{5e-3, 1e-3, 4e-3}, {5e-3, 5e-3, 2e-3}};
+  layout.perforations = {{5e-3, 1e-3, geometry::Circle{4e-3}}, {5e-3, 5e-3, geometry::Circle{2e-3}}};
   BoundaryOptions boundary;
   boundary.top_bottom = TopBottom::platens;
   const Specimen s = make_specimen(packing, layout, boundary, {}, pitch);

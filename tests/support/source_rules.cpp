@@ -52,6 +52,20 @@ void check_include(const std::string& path, const std::string& include, std::vec
       out.push_back(path + ": includes <" + include + ">: " + library.sentence);
 }
 
+/// The other rooms ask a perforation, never its shape: none of them names an alternative of geometry's `Shape`.
+void check_shapes(const std::map<std::string, std::string>& files, std::vector<std::string>& out) {
+  const auto header = files.find("geometry/shapes.h");
+  static const std::regex list("using Shape = std::variant<([^>]*)>"), name("\\w+");
+  std::smatch alternatives;
+  if (header == files.end() || !std::regex_search(header->second, alternatives, list)) return;
+  const std::string names = alternatives[1];
+  for (auto shape = std::sregex_iterator(names.begin(), names.end(), name); shape != std::sregex_iterator(); ++shape)
+    for (const auto& [path, text] : files)
+      if (room_of(path) && !lies_in(path, "geometry") &&
+          std::regex_search(text, std::regex("geometry::" + shape->str() + "\\b")))
+        out.push_back(path + ": names the shape " + shape->str() + ", which belongs in geometry only");
+}
+
 }  // namespace
 
 std::vector<std::string> includes_of(std::string_view text) {
@@ -97,6 +111,7 @@ std::set<std::string> reached_from(const std::string& path, const std::map<std::
 
 std::vector<std::string> violations_together(const std::map<std::string, std::string>& files) {
   std::vector<std::string> out;
+  check_shapes(files, out);
   for (const std::string name : {"nlopt", "toml"}) {
     std::vector<std::string> users;
     for (const auto& [path, text] : files) {

@@ -43,7 +43,8 @@ std::vector<std::string> includes_of(std::string_view text);
 std::vector<std::string> violations(const std::string& path, std::string_view text);
 
 /// Rules that need all files at once (path -> text): NLopt's and toml++'s headers, each included by one .cpp file at
-/// most; a folder inside a room includes no file of the room that includes the folder, directly or through others.
+/// most; a folder inside a room includes no file of the room that includes the folder, directly or through others; the
+/// shapes of geometry/shapes.h are named in geometry alone.
 std::vector<std::string> violations_together(const std::map<std::string, std::string>& files);
 
 }  // namespace perfora::test

@@ -122,6 +122,15 @@ TEST(RoomArrows, OneFileAloneNamesNloptAndToml) {
               ElementsAre(HasSubstr("io/b.cpp: a second file")));
 }
 
+TEST(RoomArrows, ShapesAreNamedInGeometryAlone) {
+  const std::string shapes = "//\nusing Shape = std::variant<Circle, Slot>;\n";
+  const std::string user = "//\nconst double d = std::get<geometry::Slot>(hole.shape).length;\n";
+  EXPECT_THAT(violations_together({{"geometry/shapes.h", shapes}, {"geometry/wall.cpp", user}}), IsEmpty());
+  EXPECT_THAT(violations_together({{"geometry/shapes.h", shapes}, {"tests/solver/x.cpp", user}}), IsEmpty());
+  EXPECT_THAT(violations_together({{"geometry/shapes.h", shapes}, {"solver/x.cpp", user}}),
+              ElementsAre(HasSubstr("solver/x.cpp: names the shape Slot")));
+}
+
 TEST(RoomArrows, FolderInsideTheSolverStandsOnItsOwn) {
   const std::string none = "//\n", kernel = "//\n#include \"solver/kernels/kernels.h\"\n";
   EXPECT_THAT(violations_together({{"solver/kernels/kernels.h", "//\n#include \"solver/state.h\"\n"},

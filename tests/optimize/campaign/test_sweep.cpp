@@ -265,8 +265,17 @@ TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
   expected.erase("performance");
   int seen = 0;
   {
+    io::CancellationSource source;
     WorkOptions stopping = options("stopped");
-    stopping.stop_requested = [&] { return ++seen > 5; };
+    stopping.cancellation = source.token();
+    stopping.make_executor = [&] {
+      return make_in_process_executor(
+          [&](const Request& request) {
+            if (++seen == 3) source.request();
+            return formula(request);
+          },
+          1);
+    };
     SweepRun run(sweep(text), stopping);
     run.run();
     EXPECT_EQ(run.status(), results::RunStatus::stopped);
@@ -329,8 +338,6 @@ TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
   for (const bool keep : {false, true}) {
     WorkOptions writing = options(keep ? "kept" : "dropped");
     writing.keep_run_files = keep;
-    int seen = 0;
-    writing.stop_requested = [&] { return ++seen > 3; };
     writing.make_executor = [&] {
       return make_in_process_executor(
           [&](const Request& request) {

@@ -56,7 +56,8 @@ double random_share(const geometry::PerforationLayout& layout, double radius, un
 TEST(Estimate, ShareOfTheCircleInTheSolidMatchesRandomPairs) {
   const double density = 3.27e6;
   for (const double diameter : {2e-3, 6e-3, 20e-3}) {
-    geometry::PerforationLayout layout{0.05, 0.05, {{0.012, 0.013, diameter}, {0.037, 0.036, diameter}}};
+    geometry::PerforationLayout layout{
+        0.05, 0.05, {{0.012, 0.013, geometry::Circle{diameter}}, {0.037, 0.036, geometry::Circle{diameter}}}};
     const geometry::PerforationLayout none{0.05, 0.05, {}};
     for (const double radius : {1.5e-3, 3e-3}) {
       const double share =
@@ -72,7 +73,7 @@ TEST(Estimate, ShareOfTheCircleInTheSolidMatchesRandomPairs) {
 // together); twice that is asked. Near the hole's rim the closed form counts its whole chord as open: 1 %.
 TEST(Estimate, EdgesCutTheBondsThatCrossThem) {
   const double width = 0.05, height = 0.03, radius = 1.5e-3;
-  const geometry::PerforationLayout layout{width, height, {{0.02, 0.001, 0.012}}};
+  const geometry::PerforationLayout layout{width, height, {{0.02, 0.001, geometry::Circle{0.012}}}};
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<double> x, y;

@@ -147,8 +147,12 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
   StudyRun straight(study(), options("straight"));
   const auto expected = finish(straight);
   int seen = 0;
-  WorkOptions stopping = options("stopped");
-  stopping.stop_requested = [&] { return ++seen > 8; };
+  io::CancellationSource source;
+  WorkOptions stopping = options("stopped", [&](const Request& request) {
+    if (++seen == 8) source.request();
+    return fake_with_failures(request);
+  });
+  stopping.cancellation = source.token();
   {
     StudyRun run(study(), stopping);
     run.run();
