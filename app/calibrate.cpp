@@ -4,8 +4,8 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/summary_text.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "optimize/search/calibration.h"
 #include "report/plot.h"
 
@@ -37,7 +37,7 @@ int calibrate(const CalibrateFlags& flags) {
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
-  progress.finish(fmt::format("{}, {}", result.reason, duration_text(result.seconds)));
+  progress.finish(fmt::format("{}, {}", result.reason, io::duration(result.seconds)));
   const auto record = optimize::to_json(result);
   if (result.status != results::RunStatus::stopped) {
     if (result.points.size() > fewest_points)
@@ -45,10 +45,7 @@ int calibrate(const CalibrateFlags& flags) {
     if (std::filesystem::exists(options.folder / "confirmation.h5"))
       report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
   }
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
   if (result.status == results::RunStatus::stopped)
     io::log_warning("stopped; finished tests are kept; go on with the same command and --resume");

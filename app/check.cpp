@@ -9,13 +9,14 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/summary_text.h"
 #include "app/workers.h"
 #include "io/schema.h"
+#include "io/text.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"
+#include "results/summary_text.h"
 
 namespace perfora::app {
 
@@ -39,26 +40,8 @@ void warn_about_memory(double bytes, std::vector<std::string>& warnings) {
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (bytes > memory)
     warnings.push_back(fmt::format("a run takes about {}, this machine has {}: take larger discs or a smaller cell",
-                                   memory_text(bytes), memory_text(memory)));
-}
-
-std::string estimate_text(const optimize::DesignEstimate& estimate, int threads, const std::string& whose) {
-  const auto count = [](std::int64_t value) { return with_thousands(static_cast<double>(value)); };
-  std::string text = fmt::format("One evaluation{} (estimated from counts; no disc was placed)\n", whose);
-  text += line("perforations", count(estimate.perforations));
-  text += line("porosity (share of the perforations)", fmt::format("{:.4g} %", 100.0 * estimate.porosity));
-  if (estimate.perforations > 0) text += line("thinnest wall", length_text(estimate.thinnest_wall.thickness));
-  text += line("horizon r_H", length_text(estimate.horizon_radius));
-  text += line("discs", count(estimate.discs));
-  text += line("bonds", count(estimate.bonds));
-  text += line("bonds per disc", fmt::format("{:.3g}", estimate.bonds_per_disc));
-  text += line("time step", fmt::format("{:.3g} us", 1e6 * estimate.time_step));
-  text += line("mean strain rate", fmt::format("{:.3g} 1/s", estimate.rate));
-  text += line("steps", count(estimate.steps));
-  text += line("memory", memory_text(estimate.memory_bytes));
-  text += line("disk", memory_text(estimate.disk_bytes));
-  text += line("time, roughly", fmt::format("{} on {}", duration_text(estimate.seconds), threads_text(threads)));
-  return text;
+                                   io::quantity(bytes, io::Dimension::memory),
+                                   io::quantity(memory, io::Dimension::memory)));
 }
 
 json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
@@ -89,14 +72,15 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
   const int threads = flags.common.thread_count();
   const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
   warn_about_memory(std::max(estimate.memory_bytes, most_memory), warnings);
+  const json expected = estimate_json(estimate, threads);
   if (flags.common.json) {
     json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
-    object.update(estimate_json(estimate, threads));
+    object.update(expected);
     if (!plan.is_null()) object[kind] = plan;
     object["warnings"] = warnings;
     print_json(object);
   } else {
-    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + estimate_text(estimate, threads, whose) + plan_text);
+    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + results::estimate_text(expected, whose) + plan_text);
   }
   log_warnings(warnings);
   return exit_ok;
@@ -118,9 +102,9 @@ int check_study_file(const CheckFlags& flags) {
   const double seconds = optimize::estimate_design(*study.start, flags.common.thread_count()).seconds;
   json arms = json::array();
   std::string text = "Study\n";
-  text += line("candidates", with_thousands(static_cast<double>(study.candidates)));
-  text += line("compressions, at most", with_thousands(static_cast<double>(study.simulations)));
-  text += line("time, roughly (each like the start)", duration_text(seconds * static_cast<double>(study.simulations)));
+  text += line("candidates", io::count(study.candidates));
+  text += line("compressions, at most", io::count(study.simulations));
+  text += line("time, roughly (each like the start)", io::duration(seconds * static_cast<double>(study.simulations)));
   for (const optimize::Arm& arm : study.arms) {
     arms.push_back({{"name", arm.name}, {"maxeval", arm.maxeval}});
     text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));
@@ -152,7 +136,7 @@ int check_sweep(const CheckFlags& flags) {
     const double each = estimate.seconds;
     most_memory = std::max(most_memory, estimate.memory_bytes);
     const bool counted = !designs.insert(one.design_toml).second;
-    text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : duration_text(each)));
+    text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : io::duration(each)));
     if (!counted) seconds += each * sweep.keys.replicates;
     if (each <= longest) continue;
     longest = each;
@@ -161,8 +145,8 @@ int check_sweep(const CheckFlags& flags) {
   }
   const int workers = sweep.workers(flags.workers);
   seconds /= workers;
-  text += line("simulations", with_thousands(static_cast<double>(sweep.runs())));
-  text += line(fmt::format("time with {} at once, roughly", workers), duration_text(seconds));
+  text += line("simulations", io::count(sweep.runs()));
+  text += line(fmt::format("time with {} at once, roughly", workers), io::duration(seconds));
   const json object = {
       {"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}, {"described_case", described}};
   return report(flags, "sweep", object, text, dearest.value(), sweep.warnings,
@@ -187,11 +171,10 @@ int check_calibration(const CheckFlags& flags) {
                 {"tests", tests},
                 {"warnings", calibration.warnings}});
   } else {
-    print_text(fmt::format("{}: a valid calibration\n", flags.file) +
-               line("discs of a sample", with_thousands(static_cast<double>(estimate.discs))) +
-               line("bonds of a sample", with_thousands(static_cast<double>(estimate.bonds))) +
-               line("points, at most", fmt::format("{}", points)) +
-               line("material tests, at most", fmt::format("{}", tests)));
+    print_text(
+        fmt::format("{}: a valid calibration\n", flags.file) + line("discs of a sample", io::count(estimate.discs)) +
+        line("bonds of a sample", io::count(estimate.bonds)) + line("points, at most", fmt::format("{}", points)) +
+        line("material tests, at most", fmt::format("{}", tests)));
   }
   log_warnings(calibration.warnings);
   return exit_ok;

@@ -10,6 +10,8 @@
 
 #include "io/error.h"
 #include "io/journal.h"
+#include "optimize/evaluate/design.h"
+#include "results/summary_text.h"
 
 namespace perfora::app {
 
@@ -53,6 +55,14 @@ nlohmann::json finite(const nlohmann::json& object) {
   if (result.is_structured())
     for (auto& value : result) value = finite(value);
   return result;
+}
+
+io::Dimension dimension_of_key(const std::string& name) {
+  optimize::Design design;
+  io::Schema schema;
+  optimize::describe(schema, design);
+  const io::Key* key = schema.find(name);
+  return key ? key->dimension : io::Dimension::none;
 }
 
 }  // namespace
@@ -129,6 +139,13 @@ void print_json(const nlohmann::json& object) {
 void print_text(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
+}
+
+void print_record(const nlohmann::json& object, bool as_json, const std::string& source) {
+  if (as_json)
+    print_json(object);
+  else
+    print_text(results::summary_text(object, dimension_of_key, source));
 }
 
 const std::string& command_line() {

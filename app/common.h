@@ -56,6 +56,9 @@ void print_json(const nlohmann::json& object);
 /// Text on standard output (the readable summary when --json is not given).
 void print_text(const std::string& text);
 
+/// A result: its JSON, or its readable summary. Throws io::InputError, which names `source`, for a damaged object.
+void print_record(const nlohmann::json& object, bool as_json, const std::string& source = "");
+
 /// The command line as it was typed (for provenance); set by main().
 const std::string& command_line();
 void set_command_line(int argc, char** argv);

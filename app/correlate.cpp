@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/campaign/sweep_record.h"
 #include "report/plot_correlation.h"
@@ -55,8 +56,7 @@ std::string table_text(const SweepRecord& reference, const std::vector<Compariso
                         with_replicates(reference), "result", "rank correlation (95 %)", "cases", "median of " + ratio);
     for (const ComparedMeasure& measure : one.measures)
       text += fmt::format("  {:<28}{:<30}{:>6}   {}\n", measure.measure, interval_text(measure.correlation),
-                          measure.correlation.count,
-                          std::isfinite(measure.median_ratio) ? fmt::format("{:.3g}", measure.median_ratio) : "-");
+                          measure.correlation.count, io::number(measure.median_ratio));
   }
   return text + "Rank correlation is Spearman's; its interval is that of drawing other cases.\n";
 }

@@ -9,8 +9,8 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/outputs.h"
-#include "app/summary_text.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "optimize/campaign/ensemble.h"
 #include "optimize/evaluate/elastic_answer.h"
 #include "optimize/evaluate/evaluation.h"
@@ -65,14 +65,14 @@ std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluatio
   std::vector<std::string> warnings;
   if (s.max_overlap_in_run > small_overlap)
     warnings.push_back(
-        fmt::format("the largest overlap reached {:.0f} % of <d>, beyond 5 %: the rubble is pressed together more than "
+        fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
                     "discs can bear; "
                     "take the stress of the last strains as a lower bound",
-                    100.0 * s.max_overlap_in_run));
+                    io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
   if (s.kinetic_ratio_at_peak > small_kinetic_share)
     warnings.push_back(fmt::format(
-        "kinetic energy was {:.0f} % of the elastic one at the first peak: not quasi-static; raise loading.transits",
-        100.0 * s.kinetic_ratio_at_peak));
+        "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
+        io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
   if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
     warnings.push_back(
         fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} asked for: the block is stiffer "
@@ -95,14 +95,11 @@ int evaluate_one(const EvaluateFlags& flags) {
   optimize::EvaluateOptions options = evaluate_options(flags, progress);
   options.run_file = output;
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
-  progress.finish(fmt::format("{}, {}", evaluation.reason, duration_text(evaluation.performance.seconds)));
+  progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
   if (std::filesystem::exists(output)) write_beside(output);
   log_warnings(validity_warnings(evaluation, design.design().solver.loading));
   const auto record = optimize::to_json(evaluation, false);
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);
 }
@@ -141,16 +138,12 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   ProgressLine progress("packing", flags.common.quiet);
   const optimize::ElasticAnswer answer = optimize::elastic_answer(design, evaluate_options(flags, progress), 0);
   progress.finish(fmt::format("{} discs, {}; elastic answer in {} ({} iterations)",
-                              with_thousands(static_cast<double>(answer.packed.summary.discs)),
-                              duration_text(answer.packing_seconds), duration_text(answer.solution_seconds),
-                              answer.response.iterations));
+                              io::count(answer.packed.summary.discs), io::duration(answer.packing_seconds),
+                              io::duration(answer.solution_seconds), answer.response.iterations));
   const auto record = optimize::to_json(answer);
   const bool reached = answer.status == results::RunStatus::completed;
   if (reached) optimize::write_elastic_file(output, design, answer, record, command_line());
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   if (reached)
     io::log_info("written: " + output.string());
   else
@@ -175,15 +168,12 @@ int evaluate_replicates(const EvaluateFlags& flags) {
     if (!kept && std::filesystem::exists(run_file)) write_beside(run_file);
     io::log_info(fmt::format("replicate {} of {}{}: first peak {}, plateau {}", evaluation.replicate + 1,
                              flags.replicates, kept ? " (was finished)" : "",
-                             stress_text(evaluation.summary.first_peak_stress),
-                             stress_text(evaluation.summary.plateau_stress)));
+                             io::quantity(evaluation.summary.first_peak_stress, io::Dimension::stress, "none"),
+                             io::quantity(evaluation.summary.plateau_stress, io::Dimension::stress, "none")));
   };
   const optimize::Ensemble ensemble = optimize::evaluate_ensemble(design, options);
   const auto record = optimize::to_json(ensemble);
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "the same command and --resume");
   return exit_code_of(ensemble.status);
 }

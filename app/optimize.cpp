@@ -8,7 +8,6 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/outputs.h"
-#include "app/summary_text.h"
 #include "app/workers.h"
 #include "geometry/layout.h"
 #include "io/hdf5.h"
@@ -49,8 +48,8 @@ void announce(const optimize::Study& study) {
   for (const optimize::Arm& arm : study.arms)
     io::log_info(fmt::format("arm {}: {} candidates, {}", arm.name, arm.maxeval, study.keys.algorithm));
   io::log_info(fmt::format("target {} over strain {:g} to {:g}; {} replicate{} a candidate",
-                           stress_text(study.target.plateau_stress), study.target.window[0], study.target.window[1],
-                           study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
+                           io::quantity(study.target.plateau_stress, io::Dimension::stress), study.target.window[0],
+                           study.target.window[1], study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
 }
 
 /// Whether the run file there is of this very design.
@@ -123,21 +122,21 @@ void add_facts(report::StudyPicture& picture, const optimize::StudyRun& run) {
   const Candidate& start = *run.plan().start.candidate;
   const auto& schema = study.start->schema();
   for (const optimize::ArmChoice& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
-    picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::value_text(choice.value),
-                             io::value_text(schema.find(choice.key)->get())});
+    picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::readable(choice.value),
+                             io::readable(schema.find(choice.key)->get())});
   for (std::size_t k = 0; k < study.variables.size(); ++k) {
     const auto& variable = study.variables[k];
     picture.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
-                             io::readable(best.values[k], variable.dimension),
-                             io::readable(start.values[k], variable.dimension)});
+                             io::quantity(best.values[k], variable.dimension),
+                             io::quantity(start.values[k], variable.dimension)});
   }
-  picture.facts.push_back(
-      {"thinnest wall", length_text(best.layout.thinnest_wall), length_text(start.layout.thinnest_wall)});
-  picture.facts.push_back(
-      {"porosity", fmt::format("{:.3g}", best.layout.porosity), fmt::format("{:.3g}", start.layout.porosity)});
+  picture.facts.push_back({"thinnest wall", io::quantity(best.layout.thinnest_wall, io::Dimension::length),
+                           io::quantity(start.layout.thinnest_wall, io::Dimension::length)});
+  picture.facts.push_back({"porosity", io::quantity(best.layout.porosity, io::Dimension::ratio),
+                           io::quantity(start.layout.porosity, io::Dimension::ratio)});
   const optimize::Score& start_score = run.plan().start.detail;
-  picture.facts.push_back({"score", fmt::format("{:.3g}", run.plan().best_score.value),
-                           start_score.valid ? fmt::format("{:.3g}", start_score.value) : ""});
+  picture.facts.push_back(
+      {"score", io::number(run.plan().best_score.value), start_score.valid ? io::number(start_score.value) : ""});
 }
 
 report::StudyPicture picture_of(optimize::StudyRun& run) {
@@ -177,28 +176,6 @@ void draw(optimize::StudyRun& run) {
   report::plot_run(folder / "best.h5", folder / "best.png", options);
 }
 
-std::string finals_text(const optimize::Finals& finals) {
-  if (finals.pairs == 0) return "best and start were not compared on fresh seeds\n";
-  std::string text = fmt::format("On {} fresh seeds: plateau {} (std {}), start {} (std {})\n", finals.pairs,
-                                 stress_text(finals.best.plateau_mean), stress_text(finals.best.plateau_std),
-                                 stress_text(finals.start.plateau_mean), stress_text(finals.start.plateau_std));
-  if (finals.pairs < 2) return text;
-  return text + fmt::format("Paired gain in score over the start: {:.4g} +- {:.2g} (standard error): {}\n", finals.gain,
-                            finals.gain_error,
-                            finals.significant ? "more than two standard errors"
-                                               : "not more than two standard errors, so it may be chance");
-}
-
-void print_result(const OptimizeFlags& flags, optimize::StudyRun& run) {
-  const auto record = optimize::to_json(run);
-  if (flags.common.json) return print_json(record);
-  std::string text = summary_text(record);
-  if (run.plan().best)
-    text += fmt::format("Best: {}, score {:.4g}\n", run.plan().best->label, run.plan().best_score.value);
-  if (run.plan().finished && run.plan().best) text += finals_text(run.plan().finals);
-  print_text(text);
-}
-
 int optimize_study(const OptimizeFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   optimize::Study study = optimize::read_study(flags.study, flags.common.overrides());
@@ -213,7 +190,7 @@ int optimize_study(const OptimizeFlags& flags) {
     if (best == results::RunStatus::stopped) status = best;
   }
   if (run.plan().best) draw(run);
-  print_result(flags, run);
+  print_record(optimize::to_json(run), flags.common.json);
   if (status == results::RunStatus::stopped)
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));

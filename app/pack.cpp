@@ -5,8 +5,8 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/summary_text.h"
 #include "io/memory.h"
+#include "io/text.h"
 #include "optimize/evaluate/evaluation.h"
 
 namespace perfora::app {
@@ -39,16 +39,12 @@ int pack(const PackFlags& flags) {
   performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   performance.threads = options.threads;
   performance.peak_memory = io::peak_memory_bytes();
-  progress.finish(fmt::format("{} discs in {}", with_thousands(static_cast<double>(packed.summary.discs)),
-                              duration_text(performance.seconds)));
+  progress.finish(fmt::format("{} discs in {}", io::count(packed.summary.discs), io::duration(performance.seconds)));
 
   const auto record = optimize::pack_record(packed, design.design().seeds.effective(0), performance);
   const bool reached = packed.periodic.quality.reached;
   if (reached) optimize::write_pack_file(output, design, packed, record, command_line());
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   if (!reached) {
     io::log_error("the packing was not reached, nothing was written: " + packed.periodic.quality.reason);
     return exit_numerical;

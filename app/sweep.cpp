@@ -8,7 +8,6 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/summary_text.h"
 #include "app/workers.h"
 #include "io/text.h"
 #include "optimize/campaign/sweep_result.h"
@@ -156,10 +155,7 @@ int sweep_designs(const SweepFlags& flags) {
   if (run.sweep().keys.run_files && !collapse)
     io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");
   const auto record = optimize::to_json(run);
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   if (run.status() == results::RunStatus::stopped)
     io::log_warning(
         fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));

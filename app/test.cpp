@@ -4,8 +4,8 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/summary_text.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "optimize/evaluate/material_tests.h"
 #include "report/plot.h"
 
@@ -42,17 +42,14 @@ int test(const TestFlags& flags) {
   options.cancellation = stop_token();
   options.progress = progress.callback();
   const optimize::MaterialTests tests = optimize::test_material(design, kinds, options);
-  progress.finish(fmt::format("{}, {}", tests.reason, duration_text(tests.performance.seconds)));
+  progress.finish(fmt::format("{}, {}", tests.reason, io::duration(tests.performance.seconds)));
   const auto record = optimize::to_json(tests);
   const bool whole = !tests.runs.empty();
   if (whole) {
     optimize::write_material_tests(output, design, tests, command_line());
     report::plot_material_tests(output, picture);
   }
-  if (flags.common.json)
-    print_json(record);
-  else
-    print_text(summary_text(record));
+  print_record(record, flags.common.json);
   if (tests.status == results::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);
   if (whole) io::log_info("written: " + output.string() + ", " + picture.string());
   return exit_code_of(tests.status);

@@ -12,6 +12,7 @@
 #include "geometry/random.h"
 #include "io/csv.h"
 #include "io/error.h"
+#include "io/text.h"
 
 namespace perfora::geometry {
 
@@ -31,10 +32,8 @@ io::Origin origin_of(const io::Schema* schema, const std::string& key) {
   return origin;
 }
 
-std::string millimetres(double length) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g mm", 1e3 * length);
-  return text;
+std::string length_text(double length) {
+  return io::quantity(length, io::Dimension::length);
 }
 
 double wrap(double value, double period) {
@@ -173,8 +172,8 @@ class Layouter {
       throw io::InputError(origin, name + " has no size", "a positive diameter in metres",
                            "correct or leave out this hole");
     if (!(x >= 0.0 && x <= layout.width && y >= 0.0 && y <= layout.height))
-      throw io::InputError(origin, name + " at (" + millimetres(x) + ", " + millimetres(y) + ") lies outside the cell",
-                           "0 to " + millimetres(layout.width) + " in x, 0 to " + millimetres(layout.height) + " in y",
+      throw io::InputError(origin, name + " at (" + length_text(x) + ", " + length_text(y) + ") lies outside the cell",
+                           "0 to " + length_text(layout.width) + " in x, 0 to " + length_text(layout.height) + " in y",
                            "give centres in metres within the cell");
     layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), Circle{diameter}});
   }
@@ -279,13 +278,13 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   const double side = std::min(options.width, options.height);
   if (options.family != LayoutFamily::none && options.family != LayoutFamily::list)
     layouter.refuse_unless(options.diameter < side, "layout.diameter",
-                           "a hole of " + millimetres(options.diameter) + " is larger than the cell",
-                           "less than " + millimetres(side), "lower the diameter or enlarge the cell");
+                           "a hole of " + length_text(options.diameter) + " is larger than the cell",
+                           "less than " + length_text(side), "lower the diameter or enlarge the cell");
   if (options.family == LayoutFamily::random) {
     RandomPlacement placement = layouter.at_random();
     layouter.refuse_unless(placement.fits, "layout.count",
-                           std::to_string(options.count) + " holes of " + millimetres(options.diameter) +
-                               " with walls of " + millimetres(options.minimum_wall) +
+                           std::to_string(options.count) + " holes of " + length_text(options.diameter) +
+                               " with walls of " + length_text(options.minimum_wall) +
                                " do not fit at random into the cell",
                            "holes with half their wall covering less than about 80 % of the cell",
                            "lower layout.count, layout.diameter or layout.minimum_wall");
@@ -295,19 +294,19 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   for (std::size_t k = 0; k < layout.perforations.size(); ++k)
     layouter.refuse_unless(layout.perforations[k].largest_extent() < side, size_key(options.family),
                            "hole " + std::to_string(k + 1) + " of " +
-                               millimetres(layout.perforations[k].largest_extent()) + " is larger than the cell",
-                           "less than " + millimetres(side),
+                               length_text(layout.perforations[k].largest_extent()) + " is larger than the cell",
+                           "less than " + length_text(side),
                            std::string(smaller_holes(options.family)) + " or enlarge the cell");
   const ThinnestWall wall = thinnest_wall(layout);
   const std::string pair = wall.first == wall.second
                                ? "hole " + std::to_string(wall.first + 1) + " and its periodic image"
                                : "holes " + std::to_string(wall.first + 1) + " and " + std::to_string(wall.second + 1);
   layouter.refuse_unless(wall.thickness > 0.0, size_key(options.family),
-                         pair + (wall.thickness < 0.0 ? " overlap by " + millimetres(-wall.thickness) : " touch"),
+                         pair + (wall.thickness < 0.0 ? " overlap by " + length_text(-wall.thickness) : " touch"),
                          "walls thicker than 0", std::string(smaller_holes(options.family)) + " or take fewer holes");
   layouter.refuse_unless(wall.thickness >= options.minimum_wall - wall_rounding * side, "layout.minimum_wall",
-                         "the wall between " + pair + " is " + millimetres(wall.thickness),
-                         "at least the minimum wall of " + millimetres(options.minimum_wall),
+                         "the wall between " + pair + " is " + length_text(wall.thickness),
+                         "at least the minimum wall of " + length_text(options.minimum_wall),
                          "lower the diameter, the jitter or the number of holes, or ask for less");
   return layout;
 }

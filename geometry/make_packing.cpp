@@ -17,6 +17,7 @@
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/journal.h"
+#include "io/text.h"
 
 namespace perfora::geometry {
 
@@ -44,9 +45,7 @@ void refuse_unless(bool good, const char* key, const std::string& problem, const
 }
 
 std::string percent(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g %%", 100.0 * value);
-  return text;
+  return io::quantity(value, io::Dimension::ratio);
 }
 
 void check_options(const PackingOptions& options, double width, double height) {

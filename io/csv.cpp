@@ -12,7 +12,7 @@
 
 #include "io/error.h"
 #include "io/journal.h"
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {

@@ -16,6 +16,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "io/text.h"
+
 namespace perfora::io {
 namespace {
 
@@ -122,20 +124,11 @@ void log_error(const std::string& text) {
   Output::get().line(spdlog::level::err, "error: " + text);
 }
 
-std::string duration_text(double seconds) {
-  constexpr double longest = 3600.0 * 24.0 * 365.0;  // beyond it an estimate says nothing
-  if (!(seconds >= 0.0) || seconds > longest) return "unknown time";
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
-}
-
 std::string progress_text(const std::string& title, double fraction, double first_fraction, double seconds,
                           const std::string& detail) {
   std::string text = fmt::format("{} {:.1f} %", title, 100.0 * fraction);
   const double rate = seconds > 0.0 ? (fraction - first_fraction) / seconds : 0.0;
-  if (rate > 0.0) text += fmt::format(", {:.3g} %/min, {} left", 6000.0 * rate, duration_text((1.0 - fraction) / rate));
+  if (rate > 0.0) text += fmt::format(", {:.3g} %/min, {} left", 6000.0 * rate, duration((1.0 - fraction) / rate));
   return detail.empty() ? text : text + " | " + detail;
 }
 
@@ -162,7 +155,7 @@ void Progress::update(double fraction, const std::string& detail) {
 void Progress::finish(const std::string& detail) {
   if (finished_) return;
   finished_ = true;
-  const std::string text = fmt::format("{} done in {}", title_, duration_text(seconds_since(start_)));
+  const std::string text = fmt::format("{} done in {}", title_, duration(seconds_since(start_)));
   log_info(detail.empty() ? text : text + " | " + detail);
 }
 

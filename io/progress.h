@@ -36,8 +36,6 @@ class Progress {
   bool finished_ = false;
 };
 
-/// "42 s", "3 min 05 s", "2 h 07 min"; "unknown time" for NaN, negative or absurd values.
-std::string duration_text(double seconds);
 /// "title 42.3 %, 12 %/min, 4 min 48 s left | detail": what Progress prints after `seconds` of work since
 /// `first_fraction`.
 std::string progress_text(const std::string& title, double fraction, double first_fraction, double seconds,

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {

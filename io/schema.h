@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,7 +20,23 @@ namespace perfora::io {
 
 /// Physical dimension of a key. Plain numbers are SI; strings such as "20 mm", "2 MPa", "25 %" are taken for any
 /// dimension but `none`. `ratio` is a pure number that may be written in percent.
-enum class Dimension { none, ratio, length, area, stress, stiffness, density, time, rate, angle };
+/// From `count` on they are those of results: no key has them.
+enum class Dimension {
+  none,
+  ratio,
+  length,
+  area,
+  stress,
+  stiffness,
+  density,
+  time,
+  rate,
+  angle,
+  count,
+  energy_density,
+  surface_energy,
+  memory
+};
 
 /// Closed or half-open interval of allowed numbers; `text()` prints it for messages.
 struct Range {
@@ -157,6 +174,8 @@ struct Entry {
 std::vector<Entry> read_toml(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages.
 std::vector<Entry> parse_toml(std::string_view text, const std::string& name);
+/// The value of a text in TOML syntax; nothing when it is not one (then it is a bare string).
+std::optional<Value> parse_toml_value(std::string_view text);
 /// Sets every entry of the file in the schema; `title` is accepted as a free top-level string.
 void apply_toml(Schema& schema, const std::filesystem::path& path);
 void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file);

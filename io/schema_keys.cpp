@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "io/schema.h"
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {

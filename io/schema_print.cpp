@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/schema.h"
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {

@@ -22,7 +22,7 @@
 
 #include "io/journal.h"
 #include "io/schema.h"
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "io/schema.h"
-#include "io/value_text.h"
+#include "io/text.h"
 
 namespace perfora::io {
 namespace {
@@ -38,6 +38,9 @@ constexpr Unit rate_units[] = {{"1/s", 0},
                                {"s-1", 0, 1.0, false}};
 constexpr Unit angle_units[] = {
     {"rad", 0}, {"deg", 0, std::numbers::pi / 180.0}, {"\u00b0", 0, std::numbers::pi / 180.0, false}};
+constexpr Unit energy_density_units[] = {{"J/m3", 0}, {"kJ/m3", 3}, {"MJ/m3", 6}, {"GJ/m3", 9}};
+constexpr Unit surface_energy_units[] = {{"mJ/m2", -3}, {"J/m2", 0}, {"kJ/m2", 3}, {"MJ/m2", 6}};
+constexpr Unit memory_units[] = {{"B", 0}, {"kB", 3}, {"MB", 6}, {"GB", 9}, {"TB", 12}};
 
 struct DimensionFacts {
   std::string_view name;  ///< "a length"
@@ -68,6 +71,14 @@ DimensionFacts facts(Dimension dimension) {
       return {"a rate", "1/s", "0.5 1/s", rate_units};
     case Dimension::angle:
       return {"an angle", "rad", "30 deg", angle_units};
+    case Dimension::count:
+      return {"a count", "", "", {}};
+    case Dimension::energy_density:
+      return {"an energy density", "J/m3", "7 kJ/m3", energy_density_units};
+    case Dimension::surface_energy:
+      return {"an energy per area", "J/m2", "60 J/m2", surface_energy_units};
+    case Dimension::memory:
+      return {"a memory", "B", "25 MB", memory_units};
   }
   return {};
 }

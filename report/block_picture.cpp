@@ -3,11 +3,11 @@
 #include "results/frame.h"
 #include "results/run_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "io/text.h"
 
 namespace perfora::report {
 namespace {
@@ -229,7 +229,7 @@ void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_me
   double length = 1e-3;
   for (double candidate : {1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3, 200e-3, 500e-3, 1.0})
     if (candidate * pixels_per_metre <= 110.0) length = candidate;
-  const std::string text = short_number(length * 1e3, 1) + " mm";
+  const std::string text = io::quantity(length, io::Dimension::length);
   const TextStyle style{.size = 15.0, .colour = palette::soft_ink, .align = Align::right};
   const double left = right - length * pixels_per_metre;
   canvas.line(left, y - 5.0, right, y - 5.0, palette::soft_ink, 3.0);

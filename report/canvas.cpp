@@ -3,7 +3,6 @@
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -203,32 +202,6 @@ void Canvas::write() {
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(path_.string() + ": the picture was not drawn: " + cairo_status_to_string(status));
   io::write_file(path_, bytes_);
-}
-
-std::string with_thousands(std::int64_t value) {
-  const std::string digits = std::to_string(value);
-  const std::size_t sign = value < 0 ? 1 : 0;
-  std::string out;
-  for (std::size_t k = 0; k < digits.size(); ++k) {
-    if (k > sign && (digits.size() - k) % 3 == 0) out += ',';
-    out += digits[k];
-  }
-  return out;
-}
-
-std::string short_number(double value, int digits) {
-  if (value == 0.0) return "0";
-  const double size = std::abs(value);
-  if (!std::isfinite(value) || size < 1e-4 || size >= 1e6) return fmt::format("{:.{}g}", value, digits);
-  const int decimals = std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 12);
-  return fmt::format("{:.{}f}", value, decimals);
-}
-
-StressUnit stress_unit(double pascal) {
-  const double size = std::abs(pascal);
-  if (size >= 1e9) return {1e-9, "GPa"};
-  if (size >= 1e6) return {1e-6, "MPa"};
-  return {1e-3, "kPa"};
 }
 
 }  // namespace perfora::report

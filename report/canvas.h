@@ -108,14 +108,4 @@ class Canvas {
 
 void set_colour(cairo_t* context, const Colour& colour, double opacity = 1.0);
 
-/// Numbers for people: "36,607"; 3 significant digits without exponent between 1e-4 and 1e6.
-std::string with_thousands(std::int64_t value);
-std::string short_number(double value, int digits = 3);
-/// What shows a stress of this size with one to three digits before the point: number per Pa, and its name.
-struct StressUnit {
-  double scale;
-  const char* name;
-};
-StressUnit stress_unit(double pascal);
-
 }  // namespace perfora::report

@@ -1,10 +1,10 @@
 // What is here: ranges, panels and annotations of stress-strain curves. What is not: axes (chart.h).
 #include "report/curve_panel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "io/text.h"
 
 namespace perfora::report {
 namespace {
@@ -52,11 +52,11 @@ Axis stress_axis(double top, double lowest) {
   return axis;
 }
 
-std::string mpa(double pascal) {
-  return short_number(pascal * mega) + " MPa";
+std::string stress_text(double pascal) {
+  return io::quantity(pascal, io::Dimension::stress);
 }
 std::string in_percent(double strain) {
-  return short_number(strain * percent, strain < 0.1 ? 2 : 3) + " %";
+  return io::quantity(strain, io::Dimension::ratio);
 }
 
 void draw_grounds(Chart& chart, const CurveMarks& marks) {
@@ -91,10 +91,10 @@ void annotate_window(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   if (low >= chart.box().right()) return;
   const double middle = (low + high) / 2.0;
   canvas.text(middle, chart.box().y + 24.0,
-              fmt::format("plateau {} to {} %", short_number(*marks.plateau_start * percent, 2),
-                          short_number(*marks.plateau_end * percent, 2)),
+              "plateau " + io::quantities({*marks.plateau_start, *marks.plateau_end}, io::Dimension::ratio, " to "),
               {.size = 15.0, .colour = plateau_colour, .align = Align::centre, .halo = false});
-  canvas.text(middle, chart.box().y + 48.0, marks.plateau_stress ? "mean " + mpa(*marks.plateau_stress) : "not reached",
+  canvas.text(middle, chart.box().y + 48.0,
+              marks.plateau_stress ? "mean " + stress_text(*marks.plateau_stress) : "not reached",
               {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre});
 }
 
@@ -124,7 +124,7 @@ void annotate_peak(Canvas& canvas, const Chart& chart, const CurveMarks& marks) 
   const double window = marks.plateau_start ? chart.px(*marks.plateau_start * percent) : chart.box().right();
   const TextStyle style{.size = 18.0, .colour = palette::vermilion, .bold = true, .halo = true};
   const TextStyle small{.size = 15.0, .colour = palette::vermilion, .halo = true};
-  const std::string value = mpa(*marks.peak_stress);
+  const std::string value = stress_text(*marks.peak_stress);
   const std::string where = "first peak at " + in_percent(*marks.peak_strain);
   const bool beside = x + 16.0 + canvas.text_width(where, small) < window;
   const double left = beside ? x + 14.0 : x + 2.0;
@@ -136,7 +136,7 @@ void annotate_target(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   if (!marks.target_stress) return;
   const double y = chart.py(*marks.target_stress * mega);
   if (y < chart.box().y) return;
-  const std::string text = "target " + mpa(*marks.target_stress);
+  const std::string text = "target " + stress_text(*marks.target_stress);
   const TextStyle style{.size = 16.0, .colour = target_text, .bold = true, .halo = true};
   const double window =
       marks.plateau_start ? std::min(chart.px(*marks.plateau_start * percent), chart.box().right()) : chart.box().x;
@@ -152,7 +152,7 @@ void annotate_magnified(Canvas& canvas, const Chart& chart, const CurveMarks& ma
   canvas.text(chart.box().x, y, "the plateau, magnified", {.size = 16.0, .colour = palette::soft_ink});
   if (!marks.target_stress) return;
   const TextStyle style{.size = 16.0, .colour = target_text, .bold = true, .align = Align::right};
-  const std::string text = "target " + mpa(*marks.target_stress);
+  const std::string text = "target " + stress_text(*marks.target_stress);
   canvas.text(chart.box().right(), y, text, style);
   const double left = chart.box().right() - canvas.text_width(text, style) - 10.0;
   canvas.line(left - 44.0, y - 5.5, left, y - 5.5, palette::green, 2.0, {9.0, 6.0});
@@ -161,8 +161,7 @@ void annotate_magnified(Canvas& canvas, const Chart& chart, const CurveMarks& ma
 void annotate_cut(Canvas& canvas, const Chart& chart, const Extent& extent) {
   if (extent.highest <= chart.y_axis().high) return;
   // Left of the badge of the last snapshot.
-  canvas.text(chart.box().right() - 24.0, chart.box().y - 12.0,
-              fmt::format("rises to {} MPa", short_number(extent.highest)),
+  canvas.text(chart.box().right() - 24.0, chart.box().y - 12.0, "rises to " + stress_text(extent.highest / mega),
               {.size = 15.0, .colour = palette::soft_ink, .align = Align::right});
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/plot.h"
@@ -43,25 +44,25 @@ std::vector<std::size_t> shown_frames(const results::RunResult& run) {
   return chosen;
 }
 
-/// Mean stress over 0.5 % strain around a frame, kPa; the peak's frame shows the fall, not the peak.
+/// Mean stress over 0.5 % strain around a frame, Pa; the peak's frame shows the fall, not the peak.
 double stress_around(const results::RunResult& run, double strain) {
   constexpr double half = 0.0025;
   const auto &strains = run.history.strain_yy, &stresses = run.history.stress_yy;
   double sum = 0.0, count = 0.0;
   for (std::size_t k = 0; k < strains.size(); ++k)
     if (std::abs(strains[k] - strain) <= half) sum += stresses[k], count += 1.0;
-  return count > 0.0 ? 1e-3 * sum / count : 0.0;
+  return count > 0.0 ? sum / count : 0.0;
 }
 
 std::string row_text(const LabelledRun& row) {
   std::string text = row.label;
-  const auto add = [&](const char* name, const char* key, double scale, const char* unit) {
+  const auto add = [&](const char* name, const char* key, io::Dimension dimension) {
     if (const auto value = results::summary_number(row.run.summary, key))
-      text += fmt::format("{}{} {}{}", text.empty() ? "" : "   ", name, short_number(*value * scale), unit);
+      text += fmt::format("{}{} {}", text.empty() ? "" : "   ", name, io::quantity(*value, dimension));
   };
-  add("first peak", "first_peak_stress", 1e-3, " kPa");
-  add("plateau", "plateau_stress", 1e-3, " kPa");
-  add("only rising from", "only_rising_strain", 100.0, " %");
+  add("first peak", "first_peak_stress", io::Dimension::stress);
+  add("plateau", "plateau_stress", io::Dimension::stress);
+  add("only rising from", "only_rising_strain", io::Dimension::ratio);
   return text;
 }
 
@@ -81,11 +82,9 @@ void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
     const BlockPicture picture = picture_of_frame(results::read_frame(row.run, k), row.run.clipped, row.run.edges);
     const double scale = width / std::max(picture.extent_x(), row.run.width);
     draw_block(canvas, {x, base - picture.h_yy * scale, picture.extent_x() * scale, picture.h_yy * scale}, picture);
-    canvas.text(x, base + 22.0,
-                fmt::format("{} % strain", short_number(info.strain * 100.0, info.strain < 0.1 ? 2 : 3)),
-                {.size = 15.0});
+    canvas.text(x, base + 22.0, io::quantity(info.strain, io::Dimension::ratio) + " strain", {.size = 15.0});
     if (info.strain > 0.0)
-      canvas.text(x, base + 41.0, fmt::format("{} kPa", short_number(stress_around(row.run, info.strain), 2)),
+      canvas.text(x, base + 41.0, io::quantity(stress_around(row.run, info.strain), io::Dimension::stress),
                   {.size = 15.0, .colour = palette::soft_ink});
     x += width + block_gap;
   }

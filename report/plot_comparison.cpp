@@ -1,11 +1,11 @@
 // What is here: several runs in one picture: their curves, linear for the peaks and logarithmic for what is left behind
 // them, and their numbers. What is not: one run in full (plot_run.cpp), sweeps (plot_sweep.h), which know replicates.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "io/error.h"
+#include "io/text.h"
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/curve_mean.h"
@@ -89,8 +89,8 @@ Window common_window(const std::vector<LabelledRun>& rows) {
 /// What the page says of the plateaus: where they were taken, or that they cannot be compared.
 std::string window_text(const std::vector<LabelledRun>& rows, const Window& window) {
   if (window)
-    return fmt::format("; shaded: the plateau window, {} to {} %", short_number(100.0 * window->first),
-                       short_number(100.0 * window->second));
+    return "; shaded: the plateau window, " +
+           io::quantities({window->first, window->second}, io::Dimension::ratio, " to ");
   const bool any =
       std::any_of(rows.begin(), rows.end(), [](const auto& row) { return results::plateau_window(row.run.summary); });
   return any ? "; the plateau windows of these runs differ" : "";
@@ -174,7 +174,7 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
     x = fields_left;
     for (const Field& field : fields) {
       const auto number = results::summary_number(one.row->run.summary, field.key);
-      canvas.text(x += field_width, y, number ? short_number(field.scale * *number) : "-", value);
+      canvas.text(x += field_width, y, number ? io::number(field.scale * *number) : "-", value);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/chart.h"
@@ -53,22 +54,21 @@ BlockPicture picture_of(const results::ElasticResult& elastic, const std::vector
 
 using Fact = std::pair<std::string, std::string>;
 
-std::string stress_text(double pascal) {
-  const StressUnit unit = stress_unit(pascal);
-  return short_number(unit.scale * pascal, 4) + " " + unit.name;
-}
-
 std::vector<Fact> yield_facts(const results::ElasticResult& elastic) {
   const auto number = [&](const char* key) { return results::summary_number(elastic.summary, key); };
   std::vector<Fact> facts;
   if (const auto strain = number("first_yield_strain"))
-    facts.emplace_back("first yield at strain", short_number(*strain * 100.0) + " %");
-  if (const auto stress = number("first_yield_stress")) facts.emplace_back("at stress", stress_text(*stress));
-  if (const auto stress = number("first_yield_lateral_stress")) facts.emplace_back("lateral", stress_text(*stress));
+    facts.emplace_back("first yield at strain", io::quantity(*strain, io::Dimension::ratio));
+  if (const auto stress = number("first_yield_stress"))
+    facts.emplace_back("at stress", io::quantity(*stress, io::Dimension::stress));
+  if (const auto stress = number("first_yield_lateral_stress"))
+    facts.emplace_back("lateral", io::quantity(*stress, io::Dimension::stress));
   if (!elastic.first_bonds.x.empty())
-    facts.emplace_back("first bond (x, y)", fmt::format("{}, {} mm, {}", short_number(1e3 * elastic.first_bonds.x[0]),
-                                                        short_number(1e3 * elastic.first_bonds.y[0]),
-                                                        elastic.first_bonds.mode[0] == 0 ? "tension" : "shear"));
+    facts.emplace_back(
+        "first bond (x, y)",
+        fmt::format("{}, {}",
+                    io::quantities({elastic.first_bonds.x[0], elastic.first_bonds.y[0]}, io::Dimension::length, ", "),
+                    elastic.first_bonds.mode[0] == 0 ? "tension" : "shear"));
   return facts;
 }
 
@@ -76,21 +76,20 @@ std::vector<Fact> modulus_facts(const results::ElasticResult& elastic) {
   const auto number = [&](const char* key) { return results::summary_number(elastic.summary, key); };
   std::vector<Fact> facts;
   const auto stress = [&](const char* label, const char* key) {
-    if (const auto value = number(key)) facts.emplace_back(label, stress_text(*value));
+    if (const auto value = number(key)) facts.emplace_back(label, io::quantity(*value, io::Dimension::stress));
   };
   stress("Young's modulus along x", "young_x");
   stress("Young's modulus along y", "young_y");
   stress("modulus along y, width held", "oedometric_modulus");
   stress("shear modulus", "shear_modulus");
   const auto xy = number("poisson_xy"), yx = number("poisson_yx");
-  if (xy && yx) facts.emplace_back("contraction xy, yx", short_number(*xy) + ", " + short_number(*yx));
+  if (xy && yx) facts.emplace_back("contraction xy, yx", io::quantities({*xy, *yx}, io::Dimension::none, ", "));
   if (const auto share = number("affine_share"))
-    facts.emplace_back("of the affine (Voigt) bound", short_number(*share * 100.0) + " %");
-  if (const auto share = number("anisotropy")) facts.emplace_back("anisotropy", short_number(*share * 100.0) + " %");
+    facts.emplace_back("of the affine (Voigt) bound", io::quantity(*share, io::Dimension::ratio));
+  if (const auto share = number("anisotropy"))
+    facts.emplace_back("anisotropy", io::quantity(*share, io::Dimension::ratio));
   const auto bonds = number("bonds");
-  if (bonds)
-    facts.emplace_back("discs, bonds", with_thousands(elastic.clipped.size()) + ", " +
-                                           with_thousands(static_cast<std::int64_t>(*bonds)));
+  if (bonds) facts.emplace_back("discs, bonds", io::count(elastic.clipped.size()) + ", " + io::count(*bonds));
   return facts;
 }
 
@@ -154,10 +153,11 @@ void draw_title(Canvas& canvas, const results::ElasticResult& elastic, const Plo
   const std::string title = options.title.empty() ? elastic.path.stem().string() : options.title;
   const TextStyle style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, style), style);
-  canvas.text(page_margin, 88.0,
-              fmt::format("{} x {} mm, periodic; elastic answer to compression along y at fixed width",
-                          short_number(elastic.clipped.width * 1e3), short_number(elastic.clipped.height * 1e3)),
-              {.size = 17.0, .colour = palette::soft_ink});
+  canvas.text(
+      page_margin, 88.0,
+      fmt::format("{}, periodic; elastic answer to compression along y at fixed width",
+                  io::quantities({elastic.clipped.width, elastic.clipped.height}, io::Dimension::length, " x ")),
+      {.size = 17.0, .colour = palette::soft_ink});
 }
 
 }  // namespace

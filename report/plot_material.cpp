@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/chart.h"
@@ -35,23 +36,22 @@ constexpr std::array<std::pair<const char*, const char*>, 4> columns = {{{"tensi
 struct Number {
   const char* key;
   const char* label;
-  double scale;  ///< 0: by the size of the number (kPa, MPa, GPa)
-  const char* unit;
+  io::Dimension dimension;
 };
 
 constexpr Number numbers[] = {
-    {"young_modulus", "E (2D)", 0.0, "Pa"},
-    {"poisson_ratio", "nu (2D)", 1.0, ""},
-    {"young_modulus_plane_strain", "E, plane strain", 0.0, "Pa"},
-    {"poisson_ratio_plane_strain", "nu, plane strain", 1.0, ""},
-    {"shear_modulus", "G", 0.0, "Pa"},
-    {"oedometric_modulus", "C11", 0.0, "Pa"},
-    {"tensile_strength", "tensile strength", 0.0, "Pa"},
-    {"compressive_strength", "compr. strength", 0.0, "Pa"},
-    {"strength_ratio", "compressive / tensile", 1.0, ""},
-    {"shear_strength", "shear strength", 0.0, "Pa"},
-    {"oedometric_strength", "oedom. strength", 0.0, "Pa"},
-    {"fracture_energy", "fracture energy", 1.0, "J/m2"},
+    {"young_modulus", "E (2D)", io::Dimension::stress},
+    {"poisson_ratio", "nu (2D)", io::Dimension::none},
+    {"young_modulus_plane_strain", "E, plane strain", io::Dimension::stress},
+    {"poisson_ratio_plane_strain", "nu, plane strain", io::Dimension::none},
+    {"shear_modulus", "G", io::Dimension::stress},
+    {"oedometric_modulus", "C11", io::Dimension::stress},
+    {"tensile_strength", "tensile strength", io::Dimension::stress},
+    {"compressive_strength", "compr. strength", io::Dimension::stress},
+    {"strength_ratio", "compressive / tensile", io::Dimension::none},
+    {"shear_strength", "shear strength", io::Dimension::stress},
+    {"oedometric_strength", "oedom. strength", io::Dimension::stress},
+    {"fracture_energy", "fracture energy", io::Dimension::surface_energy},
 };
 
 void draw_curves(Canvas& canvas, const Box& box, const results::MaterialResult& result, const std::string& name) {
@@ -99,11 +99,10 @@ void draw_numbers(Canvas& canvas, const results::MaterialResult& result) {
     const double x = page_margin + width * (place / rows), y = facts_top + 38.0 * (place % rows);
     ++place;
     const double mean = found->at("mean").get<double>();
-    const auto [scale, unit] = entry.scale > 0.0 ? StressUnit{entry.scale, entry.unit} : stress_unit(mean);
-    std::string text = short_number(mean * scale);
-    if (found->at("standard_deviation").is_number())
-      text += " ± " + short_number(found->at("standard_deviation").get<double>() * scale, 2);
-    if (*unit != '\0') text += std::string(" ") + unit;
+    const auto& deviation = found->at("standard_deviation");
+    const std::string text = deviation.is_number()
+                                 ? io::quantities({mean, deviation.get<double>()}, entry.dimension, " ± ")
+                                 : io::quantity(mean, entry.dimension);
     canvas.text(x, y, entry.label, {.size = 17.0, .colour = palette::soft_ink});
     canvas.text(x + width - 30.0, y, text, {.size = 17.0, .bold = true, .align = Align::right});
     canvas.line(x, y + 11.0, x + width - 30.0, y + 11.0, palette::grid);
@@ -121,15 +120,16 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, title_style), title_style);
   int replicates = 0;
   for (const results::MaterialTest& test : result.tests) replicates = std::max(replicates, test.replicate + 1);
-  canvas.text(page_margin, 88.0,
-              fmt::format("Solid samples of {} x {} mm, {} discs of {} mm mean diameter; {}",
-                          short_number(result.sample.width * 1e3), short_number(result.sample.height * 1e3),
-                          with_thousands(result.sample.size()), short_number(result.sample.mean_diameter() * 1e3),
-                          replicates == 1 ? std::string("one sample")
-                                          : fmt::format("{} samples (mean ± standard deviation); blue and below: the "
-                                                        "first",
-                                                        replicates)),
-              {.size = 17.0, .colour = palette::soft_ink});
+  canvas.text(
+      page_margin, 88.0,
+      fmt::format("Solid samples of {}, {} discs of {} mean diameter; {}",
+                  io::quantities({result.sample.width, result.sample.height}, io::Dimension::length, " x "),
+                  io::count(result.sample.size()), io::quantity(result.sample.mean_diameter(), io::Dimension::length),
+                  replicates == 1 ? std::string("one sample")
+                                  : fmt::format("{} samples (mean ± standard deviation); blue and below: the "
+                                                "first",
+                                                replicates)),
+      {.size = 17.0, .colour = palette::soft_ink});
   std::vector<std::pair<const char*, const char*>> shown;
   for (const auto& column : columns)
     if (std::any_of(result.tests.begin(), result.tests.end(),

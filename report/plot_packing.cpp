@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/chart.h"
@@ -27,25 +28,26 @@ std::vector<Fact> facts_of(const results::PackResult& pack) {
   const geometry::PackingQuality& quality = pack.periodic.quality;
   const auto number = [&](const char* key) { return results::summary_number(pack.summary, key); };
   std::vector<Fact> facts = {
-      {"discs", with_thousands(pack.clipped.size()) + " of " + with_thousands(pack.periodic.size()) + " packed"},
-      {"mean diameter", short_number(pack.clipped.mean_diameter() * 1e3, 4) + " mm"},
-      {"solid fraction of the packing", short_number(quality.solid_fraction, 4)}};
-  if (quality.jamming_fraction > 0.0) facts.emplace_back("jammed at", short_number(quality.jamming_fraction, 4));
+      {"discs", io::count(pack.clipped.size()) + " of " + io::count(pack.periodic.size()) + " packed"},
+      {"mean diameter", io::quantity(pack.clipped.mean_diameter(), io::Dimension::length)},
+      {"solid fraction of the packing", io::quantity(quality.solid_fraction, io::Dimension::ratio)}};
+  if (quality.jamming_fraction > 0.0)
+    facts.emplace_back("jammed at", io::quantity(quality.jamming_fraction, io::Dimension::ratio));
   if (const auto porosity = number("porosity"))
-    facts.emplace_back("porosity of the block", short_number(*porosity * 100.0) + " %");
-  if (const auto bonds = number("bonds_per_disc")) facts.emplace_back("bonds per disc", short_number(*bonds, 4));
-  facts.emplace_back("perforations", with_thousands(static_cast<std::int64_t>(pack.layout.perforations.size())));
+    facts.emplace_back("porosity of the block", io::quantity(*porosity, io::Dimension::ratio));
+  if (const auto bonds = number("bonds_per_disc")) facts.emplace_back("bonds per disc", io::number(*bonds));
+  facts.emplace_back("perforations", io::count(pack.layout.perforations.size()));
   if (const auto wall = number("thinnest_wall")) {
-    std::string text = short_number(*wall * 1e3) + " mm";
+    std::string text = io::quantity(*wall, io::Dimension::length);
     if (const auto between = number("thinnest_wall_discretised"))
-      text += " (" + short_number(*between * 1e3) + " between discs)";
+      text += " (" + io::quantity(*between, io::Dimension::length) + " between discs)";
     facts.emplace_back("thinnest wall", text);
   }
   facts.emplace_back("largest overlap", quality.max_overlap_ratio > 0.0
-                                            ? short_number(quality.max_overlap_ratio, 2) + " of the smaller diameter"
+                                            ? io::number(quality.max_overlap_ratio) + " of the smaller diameter"
                                             : "none");
   if (quality.coordination_number > 0.0)
-    facts.emplace_back("coordination number", short_number(quality.coordination_number));
+    facts.emplace_back("coordination number", io::number(quality.coordination_number));
   return facts;
 }
 
@@ -92,8 +94,9 @@ void draw_packing(const results::PackResult& pack, const std::filesystem::path& 
   const TextStyle title_style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, title_style), title_style);
   canvas.text(page_margin, 88.0,
-              fmt::format("{} x {} mm, periodic; packing {}, seed {}", short_number(pack.clipped.width * 1e3),
-                          short_number(pack.clipped.height * 1e3), pack.periodic.key.protocol, pack.periodic.key.seed),
+              fmt::format("{}, periodic; packing {}, seed {}",
+                          io::quantities({pack.clipped.width, pack.clipped.height}, io::Dimension::length, " x "),
+                          pack.periodic.key.protocol, pack.periodic.key.seed),
               {.size = 17.0, .colour = palette::soft_ink});
   const BlockPicture picture = picture_of_packing(pack.clipped);
   Box box = fit_block(picture, {page_margin, 116.0, side_panel - page_margin - 110.0, page_height - 116.0 - 52.0}, 0.0);

@@ -1,6 +1,5 @@
 // What is here: the chart of a calibration: which ratios of strengths can be reached. What is not: the search
 // (optimize/search/calibration.h).
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "io/error.h"
 #include "io/journal.h"
+#include "io/text.h"
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/plot.h"
@@ -54,7 +54,7 @@ void draw_legend(Canvas& canvas, const Curves& curves, bool with_target) {
     y += 36.0;
     const Colour colour = palette::series()[k++ % palette::series().size()];
     canvas.line(legend_left, y - 6.0, legend_left + 40.0, y - 6.0, colour, 3.0);
-    canvas.text(legend_left + 54.0, y, short_number(delay), {.size = 17.0});
+    canvas.text(legend_left + 54.0, y, io::number(delay), {.size = 17.0});
   }
   y += 44.0;
   canvas.disc(legend_left + 20.0, y - 6.0, 6.0, palette::paper, palette::ink, 1.6);

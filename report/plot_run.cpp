@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/curve_panel.h"
@@ -32,19 +33,18 @@ std::string describe_edges(const results::Edges& edges) {
 
 std::string describe_block(const results::RunResult& run) {
   const std::size_t holes = run.layout.perforations.size();
-  return fmt::format("{} x {} mm block{}, {} perforation{}, {} discs of {} mm mean diameter, {} bonds",
-                     short_number(run.width * 1e3), short_number(run.height * 1e3), describe_edges(run.edges), holes,
-                     holes == 1 ? "" : "s", with_thousands(run.clipped.size()), short_number(run.mean_diameter * 1e3),
-                     with_thousands(static_cast<std::int64_t>(run.bonds.size())));
+  return fmt::format("{} block{}, {} perforation{}, {} discs of {} mean diameter, {} bonds",
+                     io::quantities({run.width, run.height}, io::Dimension::length, " x "), describe_edges(run.edges),
+                     holes, holes == 1 ? "" : "s", io::count(run.clipped.size()),
+                     io::quantity(run.mean_diameter, io::Dimension::length), io::count(run.bonds.size()));
 }
 
 std::string describe_damage(const results::RunResult& run) {
   std::string text;
   if (const auto broken = results::summary_number(run.summary, "broken_bonds"))
-    text += with_thousands(static_cast<std::int64_t>(*broken)) + " bonds broken";
+    text += io::count(*broken) + " bonds broken";
   if (const auto fragments = results::summary_number(run.summary, "fragments"))
-    text +=
-        fmt::format("{}{} fragments", text.empty() ? "" : ", ", with_thousands(static_cast<std::int64_t>(*fragments)));
+    text += fmt::format("{}{} fragments", text.empty() ? "" : ", ", io::count(*fragments));
   return text;
 }
 
@@ -149,7 +149,7 @@ void draw_key(Canvas& canvas) {
 }
 
 std::string caption_of(const results::FrameInfo& info, const char* what) {
-  return fmt::format("{}, {} % strain", what, short_number(info.strain * 100.0, info.strain < 0.1 ? 2 : 3));
+  return fmt::format("{}, {} strain", what, io::quantity(info.strain, io::Dimension::ratio));
 }
 
 }  // namespace

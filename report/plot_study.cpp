@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/curve_panel.h"
@@ -34,9 +35,10 @@ double draw_curve_key(Canvas& canvas, double x, double y, const Colour& colour, 
 std::string replicate_text(const char* what, std::size_t count, const std::optional<double>& plateau,
                            const std::optional<double>& deviation) {
   std::string text = fmt::format("{} ({} replicate{})", what, count, count == 1 ? "" : "s");
-  if (plateau) text += ": " + short_number(*plateau * 1e-6);
-  if (plateau && deviation) text += " \u00b1 " + short_number(*deviation * 1e-6, 2);
-  if (plateau) text += " MPa";
+  if (plateau && deviation)
+    text += ": " + io::quantities({*plateau, *deviation}, io::Dimension::stress, " \u00b1 ");
+  else if (plateau)
+    text += ": " + io::quantity(*plateau, io::Dimension::stress);
   return text;
 }
 

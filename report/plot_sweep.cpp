@@ -1,8 +1,6 @@
 // What is here: drawing of a sweep. What is not: its data (plot_sweep.h), axes (chart.h).
 #include "report/plot_sweep.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text.h"
 #include "report/chart.h"
 
 namespace perfora::report {
@@ -132,7 +133,7 @@ void draw_best(Canvas& canvas, const Chart& chart, const StudyPicture& picture) 
     set_colour(context, palette::vermilion);
     cairo_set_line_width(context, 2.6);
     cairo_stroke(context);
-    const std::string text = fmt::format("best: candidate {}, {}", evaluation.number, short_number(evaluation.score));
+    const std::string text = fmt::format("best: candidate {}, {}", evaluation.number, io::number(evaluation.score));
     const TextStyle plain{.size = 16.0, .bold = true};
     const bool right = x + 18.0 + canvas.text_width(text, plain) < chart.box().right();
     canvas.text(right ? x + 16.0 : x - 16.0, std::min(y + 22.0, chart.box().bottom() - 8.0), text,

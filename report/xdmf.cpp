@@ -1,4 +1,4 @@
-// What is here: the XDMF file and its companion. What is not: reading of R.h5 (run_result.h).
+// What is here: the XDMF file and its companion. What is not: reading of R.h5 (results/run_file.h).
 // What ParaView 5.11 needs was tried file by file: points need an explicit connectivity, HyperSlab items lose their
 // geometry, so each frame names datasets of its own.
 #include "report/xdmf.h"

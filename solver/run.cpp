@@ -13,6 +13,7 @@
 
 #include "io/memory.h"
 #include "io/progress.h"
+#include "io/text.h"
 #include "results/measures.h"
 #include "results/run_file.h"
 #include "solver/checkpoint.h"
@@ -244,9 +245,10 @@ class Run {
     if (request_.progress) {
       const double elapsed = seconds_since(started_);
       const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
-      request_.progress(static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
-                        fmt::format("strain {:.2f} %, stress {:.4g} kPa, {:.0f} steps/s", 100.0 * simulation_->strain(),
-                                    progress_.history.stress_yy.back() / 1e3, rate));
+      request_.progress(
+          static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
+          fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * simulation_->strain(),
+                      io::quantity(progress_.history.stress_yy.back(), io::Dimension::stress), io::count(rate)));
     }
   }
 

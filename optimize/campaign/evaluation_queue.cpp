@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "io/journal.h"
+#include "io/text.h"
 
 namespace perfora::optimize {
 namespace {
@@ -20,12 +21,6 @@ constexpr double curve_step = 0.005;
 constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
 constexpr const char* evaluation_event = "evaluation";
 constexpr const char* runs_folder = "runs";
-
-std::string duration(double seconds) {
-  if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  return fmt::format("{:.1f} h", seconds / 3600.0);
-}
 
 }  // namespace
 
@@ -104,7 +99,7 @@ std::string EvaluationQueue::time_left(std::int64_t remaining) const {
   if (answers_.empty() || remaining <= 0) return {};
   const double mean = simulated_seconds_ / static_cast<double>(answers_.size());
   const double parallel = std::clamp(static_cast<double>(in_flight_.size()), 1.0, static_cast<double>(workers_));
-  return fmt::format("; at most {} left", duration(mean * static_cast<double>(remaining) / parallel));
+  return fmt::format("; at most {} left", io::duration(mean * static_cast<double>(remaining) / parallel));
 }
 
 std::filesystem::path EvaluationQueue::run_file(const std::string& key) {

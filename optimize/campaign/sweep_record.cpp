@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "io/journal.h"
+#include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/evaluate/evaluation.h"
 
@@ -76,8 +77,7 @@ SweepRecord read_sweep_record(const fs::path& path) {
 std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other) {
   std::vector<std::string> found;
   const auto window = [](const SweepRecord& record) {
-    return fmt::format("{:.4g} to {:.4g} %", 100.0 * record.plateau_window.front(),
-                       100.0 * record.plateau_window.back());
+    return io::quantities({record.plateau_window.front(), record.plateau_window.back()}, io::Dimension::ratio, " to ");
   };
   const bool known = reference.plateau_window.size() == 2 && other.plateau_window.size() == 2;
   if (known && reference.plateau_window != other.plateau_window)
@@ -88,12 +88,13 @@ std::vector<std::string> differences(const SweepRecord& reference, const SweepRe
     for (const SweepRecord::Case& one : record.cases) strains.push_back(result_of(one, "final_strain").mean);
     return median(std::move(strains));
   };
+  const auto percent = [](double strain) { return io::quantity(strain, io::Dimension::ratio); };
   constexpr double a_step = 1e-3;
   if (std::fabs(reached(reference) - reached(other)) > a_step)
     found.push_back(
-        fmt::format("{} was compressed to {:.4g} %, {} to {:.4g} %: results that look at the whole curve are "
+        fmt::format("{} was compressed to {}, {} to {}: results that look at the whole curve are "
                     "not the same",
-                    reference.name, 100.0 * reached(reference), other.name, 100.0 * reached(other)));
+                    reference.name, percent(reached(reference)), other.name, percent(reached(other))));
   return found;
 }
 

@@ -69,11 +69,11 @@ std::vector<Asked> SweepRun::wanted() const {
 
 void SweepRun::say(const Asked& asked, const Evaluation& evaluation) {
   const auto& summary = evaluation.summary;
-  const std::string what =
-      evaluation.status == results::RunStatus::completed
-          ? fmt::format("first peak {}, plateau {}", io::readable_stress(summary.first_peak_stress),
-                        io::readable_stress(summary.plateau_stress))
-          : "failed: " + evaluation.reason;
+  const std::string what = evaluation.status == results::RunStatus::completed
+                               ? fmt::format("first peak {}, plateau {}",
+                                             io::quantity(summary.first_peak_stress, io::Dimension::stress, "none"),
+                                             io::quantity(summary.plateau_stress, io::Dimension::stress, "none"))
+                               : "failed: " + evaluation.reason;
   const auto left = static_cast<std::int64_t>(wanted().size());
   io::log_info(fmt::format("run {} of {}: {}, replicate {}: {}{}", sweep_.runs() - left, sweep_.runs(), asked.label,
                            asked.request.replicate, what, queue_->time_left(left)));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "io/text.h"
 #include "optimize/evaluate/design.h"
 
 namespace perfora::optimize {
@@ -21,8 +22,12 @@ constexpr double fewest_discs_across = 10.0;
 /// file.
 constexpr double coarse_tolerance = 1.01;
 
-double millimetres(double metres) {
-  return 1.0e3 * metres;
+std::string length_text(double metres) {
+  return io::quantity(metres, io::Dimension::length);
+}
+
+std::string size_text(double width, double height) {
+  return io::quantities({width, height}, io::Dimension::length, " x ");
 }
 
 /// Refuses a hopeless number of holes before any is placed: n points in a periodic cell of area A have two nearer than
@@ -39,10 +44,8 @@ void check_hole_count(const Design& design, const io::Schema& schema, double hor
   if (most < 1.0) return;  // not the number is wrong: make_layout and check_walls say what
   throw io::InputError(
       schema.origin(geometry::count_key(layout)),
-      fmt::format(
-          "{} holes of {:.4g} mm leave no wall of at least the horizon of {:.4g} mm in a cell of {:.4g} x {:.4g} mm",
-          holes, millimetres(layout.diameter), millimetres(horizon_radius), millimetres(layout.width),
-          millimetres(layout.height)),
+      fmt::format("{} holes of {} leave no wall of at least the horizon of {} in a cell of {}", holes,
+                  length_text(layout.diameter), length_text(horizon_radius), size_text(layout.width, layout.height)),
       fmt::format("at most {:.0f} such holes can fit", std::floor(most)),
       "take fewer or smaller holes, or a larger cell");
 }
@@ -60,8 +63,9 @@ void check_size_law(const Design& design, const io::Schema& schema) {
   if (packing.mean_diameter <= smallest || packing.mean_diameter >= packing.maximum_diameter)
     throw io::InputError(
         schema.origin("packing.mean_diameter"),
-        fmt::format("the mean diameter {:.6g} mm is outside the diameters of the size law, {:.6g} to {:.6g} mm",
-                    millimetres(packing.mean_diameter), millimetres(smallest), millimetres(packing.maximum_diameter)),
+        fmt::format("the mean diameter {} is outside the diameters of the size law, {}",
+                    length_text(packing.mean_diameter),
+                    io::quantities({smallest, packing.maximum_diameter}, io::Dimension::length, " to ")),
         "between maximum_diameter/size_ratio and maximum_diameter",
         "change packing.mean_diameter and packing.maximum_diameter together");
   static_cast<void>(geometry::size_law_exponent(packing.mean_diameter, packing.maximum_diameter, packing.size_ratio));
@@ -73,11 +77,11 @@ void check_disc_count(const Design& design, const io::Schema& schema) {
   const double area = design.layout.width * design.layout.height;
   const double by_area = area / (design.packing.mean_diameter * design.packing.mean_diameter);
   if (by_area > most_discs)
-    throw io::InputError(schema.origin("packing.mean_diameter"),
-                         fmt::format("about {:.3g} discs of {:.4g} mm would be needed for a cell of {:.4g} x {:.4g} mm",
-                                     by_area, millimetres(design.packing.mean_diameter),
-                                     millimetres(design.layout.width), millimetres(design.layout.height)),
-                         fmt::format("at most {:.3g} discs", most_discs), "take larger discs or a smaller cell");
+    throw io::InputError(
+        schema.origin("packing.mean_diameter"),
+        fmt::format("about {:.3g} discs of {} would be needed for a cell of {}", by_area,
+                    length_text(design.packing.mean_diameter), size_text(design.layout.width, design.layout.height)),
+        fmt::format("at most {:.3g} discs", most_discs), "take larger discs or a smaller cell");
 }
 
 void check_cell_against_discs(const Design& design, const io::Schema& schema, double mean_diameter,
@@ -88,26 +92,26 @@ void check_cell_against_discs(const Design& design, const io::Schema& schema, do
   if (smallest_side < fewest_discs_across * mean_diameter)
     throw io::InputError(
         origin,
-        fmt::format("a cell of {:.4g} mm is only {:.2g} mean disc diameters of {:.4g} mm across",
-                    millimetres(smallest_side), smallest_side / mean_diameter, millimetres(mean_diameter)),
+        fmt::format("a cell of {} is only {:.2g} mean disc diameters of {} across", length_text(smallest_side),
+                    smallest_side / mean_diameter, length_text(mean_diameter)),
         fmt::format("at least {:.0f} diameters", fewest_discs_across), "take smaller discs or a larger cell");
   if (smallest_side <= 2.0 * horizon_radius)
-    throw io::InputError(
-        origin,
-        fmt::format("a cell of {:.4g} mm is not wider than twice the horizon of {:.4g} mm, so a disc would "
-                    "be bonded to two images of the same neighbour",
-                    millimetres(smallest_side), millimetres(horizon_radius)),
-        "more than 2 x material.horizon x packing.mean_diameter", "take smaller discs or a larger cell");
+    throw io::InputError(origin,
+                         fmt::format("a cell of {} is not wider than twice the horizon of {}, so a disc would "
+                                     "be bonded to two images of the same neighbour",
+                                     length_text(smallest_side), length_text(horizon_radius)),
+                         "more than 2 x material.horizon x packing.mean_diameter",
+                         "take smaller discs or a larger cell");
   const double final_height = design.layout.height * (1.0 - design.solver.loading.until);
   const double largest_diameter = design.packing.file.empty() ? design.packing.maximum_diameter : mean_diameter;
   const double reach = std::max(largest_diameter, horizon_radius);  // fragments keep their bonds while the cell shrinks
   if (final_height <= 2.0 * reach)
-    throw io::InputError(
-        schema.origin("loading.until"),
-        fmt::format("compressing to strain {:.4g} leaves a cell {:.4g} mm high, not more than twice the "
-                    "horizon or the largest disc",
-                    design.solver.loading.until, millimetres(final_height)),
-        fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.height), "stop earlier or take a higher cell");
+    throw io::InputError(schema.origin("loading.until"),
+                         fmt::format("compressing to strain {:.4g} leaves a cell {} high, not more than twice the "
+                                     "horizon or the largest disc",
+                                     design.solver.loading.until, length_text(final_height)),
+                         fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.height),
+                         "stop earlier or take a higher cell");
 }
 
 std::string pair_text(const geometry::ThinnestWall& wall) {
@@ -123,18 +127,18 @@ void check_walls(const geometry::PerforationLayout& layout, const io::Schema& sc
   if (wall.thickness < (1.0 - rounding) * horizon_radius)
     throw io::InputError(
         schema.origin("layout.diameter"),
-        fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than the horizon of {:.4g} mm, so "
+        fmt::format("the thinnest wall, {} between {}, is thinner than the horizon of {}, so "
                     "bonds would span it",
-                    millimetres(wall.thickness), pair_text(wall), millimetres(horizon_radius)),
-        fmt::format("at least {:.4g} mm", millimetres(horizon_radius)),
+                    length_text(wall.thickness), pair_text(wall), length_text(horizon_radius)),
+        "at least " + length_text(horizon_radius),
         "take smaller or fewer holes, smaller discs (packing.mean_diameter) or a smaller material.horizon; a random "
         "layout keeps walls of layout.minimum_wall");
   if (wall.thickness < 2.0 * horizon_radius)
     warnings.push_back(
-        fmt::format("the thinnest wall, {:.4g} mm between {}, is thinner than two horizons ({:.4g} mm): every disc in "
+        fmt::format("the thinnest wall, {} between {}, is thinner than two horizons ({}): every disc in "
                     "it feels an edge, so "
                     "it is softer and weaker than the material; smaller discs or thicker walls give truer results",
-                    millimetres(wall.thickness), pair_text(wall), millimetres(2.0 * horizon_radius)));
+                    length_text(wall.thickness), pair_text(wall), length_text(2.0 * horizon_radius)));
 }
 
 void warn_about_holes(const geometry::PerforationLayout& layout, const Design& design,
@@ -143,15 +147,18 @@ void warn_about_holes(const geometry::PerforationLayout& layout, const Design& d
   for (const geometry::Perforation& hole : layout.perforations) smallest = std::min(smallest, hole.smallest_extent());
   if (smallest < design.packing.maximum_diameter && design.packing.file.empty())
     warnings.push_back(
-        fmt::format("the smallest hole, {:.4g} mm, is smaller than the largest disc, {:.4g} mm: it may take "
+        fmt::format("the smallest hole, {}, is smaller than the largest disc, {}: it may take "
                     "no disc away",
-                    millimetres(smallest), millimetres(design.packing.maximum_diameter)));
+                    length_text(smallest), length_text(design.packing.maximum_diameter)));
 }
 
 void warn_about_resolution(const Design& design, double mean_diameter, std::vector<std::string>& warnings) {
   const solver::MaterialOptions& material = design.solver.material;
   const double ratio = mean_diameter / material.reference_mean_diameter;
   if (ratio <= coarse_tolerance) return;
+  const io::PrintUnit unit = io::unit_for(mean_diameter, io::Dimension::length);  // one for both: they are compared
+  const std::string mean = io::in_unit(mean_diameter, unit);
+  const std::string reference = io::in_unit(material.reference_mean_diameter, unit);
   const char* consequence =
       "; the first peak comes out biased, not only noisy, and a wall holds fewer discs: use it to try things out, and "
       "fewer "
@@ -159,27 +166,26 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
   switch (material.threshold_scaling) {
     case solver::ThresholdScaling::none:
       warnings.push_back(fmt::format(
-          "the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm that the critical stretches are "
+          "the mean disc diameter {} is {:.2f} times the reference {} that the critical stretches are "
           "stated for, "
           "and material.threshold_scaling = \"none\" leaves them as they are: strength falls by that factor{}",
-          millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter), consequence));
+          mean, ratio, reference, consequence));
       break;
     case solver::ThresholdScaling::strength:
       warnings.push_back(fmt::format(
-          "the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm: strength is kept by scaling the "
+          "the mean disc diameter {} is {:.2f} times the reference {}: strength is kept by scaling the "
           "critical "
           "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (5 to 6 mm for Table "
           "1 at the "
           "reference) grow {:.2f} times as well{}",
-          millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter), ratio, consequence));
+          mean, ratio, reference, ratio, consequence));
       break;
     case solver::ThresholdScaling::toughness:
       warnings.push_back(
-          fmt::format("the mean disc diameter {:.4g} mm is {:.2f} times the reference {:.4g} mm: fracture energy is "
+          fmt::format("the mean disc diameter {} is {:.2f} times the reference {}: fracture energy is "
                       "kept by scaling the "
                       "critical stretches with its square root, so the strength falls to {:.2f} of its value{}",
-                      millimetres(mean_diameter), ratio, millimetres(material.reference_mean_diameter),
-                      1.0 / std::sqrt(ratio), consequence));
+                      mean, ratio, reference, 1.0 / std::sqrt(ratio), consequence));
       break;
   }
 }

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "io/memory.h"
+#include "io/text.h"
 #include "optimize/evaluate/evaluation.h"
 #include "solver/elastic/elastic.h"
 
@@ -135,11 +136,12 @@ DesignFile material_sample(const DesignFile& design) {
   const double size = options.solver.test.size;
   const double least = std::max(fewest_discs_across, fewest_horizons_across * options.solver.material.horizon) *
                        options.packing.mean_diameter;
+  const auto length = [](double metres) { return io::quantity(metres, io::Dimension::length); };
   if (size < least)
     throw io::InputError(design.schema().origin("test.size"),
-                         fmt::format("a sample of {:.4g} mm is too small for discs of {:.4g} mm and their horizon",
-                                     1e3 * size, 1e3 * options.packing.mean_diameter),
-                         fmt::format("at least {:.4g} mm", 1e3 * least), "raise test.size or take smaller discs");
+                         fmt::format("a sample of {} is too small for discs of {} and their horizon", length(size),
+                                     length(options.packing.mean_diameter)),
+                         "at least " + length(least), "raise test.size or take smaller discs");
   options.layout.width = options.layout.height = size;
   return sample;
 }

@@ -353,7 +353,7 @@ class Search {
     const bool told = std::any_of(result_.not_met.begin(), result_.not_met.end(),
                                   [&](const std::string& one) { return one.starts_with(name); });
     const auto text = [&](double value) {
-      return io::readable(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
+      return io::quantity(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
     };
     if (!target.met && !told)
       result_.not_met.push_back(

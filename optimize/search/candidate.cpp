@@ -20,7 +20,7 @@ std::string label_of(const Study& study, int arm, std::span<const double> values
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Variable& variable = study.variables[k];
     label += fmt::format(", {} {}", variable.key.substr(variable.key.find('.') + 1),
-                         io::readable(values[k], variable.dimension));
+                         io::quantity(values[k], variable.dimension));
   }
   return label;
 }

@@ -173,9 +173,9 @@ std::string best_toml(StudyRun& run) {
                                  study.keys.algorithm, run.answers().size(), plan.best->label);
   text += fmt::format(
       "# score {:.6g}; plateau {} over strain {:g} to {:g} (mean of {} runs), target {}\n", plan.best_score.value,
-      io::readable(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
+      io::quantity(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
       study.target.window[0], study.target.window[1], plateau.at("count").get<int>(),
-      io::readable(study.target.plateau_stress, io::Dimension::stress));
+      io::quantity(study.target.plateau_stress, io::Dimension::stress));
   const Finals& finals = plan.finals;
   if (finals.pairs > 1)
     text += fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (standard error) over the start: {}\n",

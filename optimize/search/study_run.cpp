@@ -112,8 +112,9 @@ std::int64_t StudyRun::most_evaluations() const {
 void StudyRun::say(const Asked& asked, const Evaluation& evaluation) {
   const Candidate& candidate = *candidates_.at(asked.key);
   const auto all = known(candidate, 0, study_.keys.replicates);
-  std::string what = usable(evaluation) ? "plateau " + io::readable_stress(evaluation.summary.plateau_stress)
-                                        : "failed: " + (evaluation.reason.empty() ? "no plateau" : evaluation.reason);
+  std::string what = usable(evaluation)
+                         ? "plateau " + io::quantity(evaluation.summary.plateau_stress, io::Dimension::stress, "none")
+                         : "failed: " + (evaluation.reason.empty() ? "no plateau" : evaluation.reason);
   const bool final_stage = asked.request.replicate >= study_.keys.replicates;
   if (!final_stage && static_cast<int>(all.size()) == study_.keys.replicates) {
     const Score score = score_of(study_.target, all);

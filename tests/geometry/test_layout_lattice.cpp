@@ -181,7 +181,7 @@ TEST(Rotated, RefusesTooManyAndTooLargeHolesByTheirKey) {
   options = rotated(6, 6, 2);  // 40 holes: a pitch of 150/sqrt(40) = 23.717 mm
   options.diameter = 0.024;
   EXPECT_THAT(refusal(options), HasSubstr("layout.diameter: holes "));
-  EXPECT_THAT(refusal(options), HasSubstr("overlap by 0.282918 mm"));
+  EXPECT_THAT(refusal(options), HasSubstr("overlap by 282.9 um"));
   options.rows = 0;
   EXPECT_THAT(refusal(options), HasSubstr("layout.rows"));
 }

@@ -28,16 +28,6 @@ std::string standard_error_of(const Code& code) {
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(Durations, InWords) {
-  EXPECT_EQ(duration_text(0.4), "0 s");
-  EXPECT_EQ(duration_text(59.6), "1 min 00 s");
-  EXPECT_EQ(duration_text(185.0), "3 min 05 s");
-  EXPECT_EQ(duration_text(7620.0), "2 h 07 min");
-  EXPECT_EQ(duration_text(std::nan("")), "unknown time");
-  EXPECT_EQ(duration_text(-1.0), "unknown time");
-  EXPECT_EQ(duration_text(HUGE_VAL), "unknown time");
-}
-
 TEST(ProgressText, PercentRateTimeLeft) {  // 20 % in 60 s: 20 %/min, the other 80 % take 240 s
   EXPECT_EQ(progress_text("compress", 0.2, 0.0, 60.0, "stress 0.21 MPa"),
             "compress 20.0 %, 20 %/min, 4 min 00 s left | stress 0.21 MPa");

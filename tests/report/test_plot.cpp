@@ -67,16 +67,6 @@ TEST_P(TicksOfRanges, LieWithinAndAreNotTooMany) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, TicksOfRanges, ::testing::Range(1u, 60u));
 
-TEST(Numbers, AreWrittenForPeople) {
-  EXPECT_EQ(with_thousands(36607), "36,607");
-  EXPECT_EQ(with_thousands(-1234567), "-1,234,567");
-  EXPECT_EQ(with_thousands(999), "999");
-  EXPECT_EQ(short_number(0.0250), "0.0250");
-  EXPECT_EQ(short_number(123.4), "123");
-  EXPECT_EQ(short_number(5044.0, 3), "5044");
-  EXPECT_EQ(short_number(3e-7), "3e-07");
-}
-
 // Two discs of fragments 1 and 2 side by side must not share a colour; fragment 0 has none; crumbs have theirs.
 TEST(FragmentColours, DifferWhereFragmentsTouch) {
   results::Frame frame;

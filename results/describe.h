@@ -1,0 +1,22 @@
+// What is here: what a file or folder of Perfora holds: the stored summary, or a description of what has none
+// (checkpoints, journals, design files). What is not: how a summary reads (summary_text.h).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace perfora::results {
+
+/// The JSON object that a result file (.h5, .json) or the folder of a finished study, sweep, ensemble or calibration
+/// holds; nothing where there is none (unfinished folders, checkpoints, other files). Throws io::InputError for a file
+/// that is broken or not Perfora's.
+std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path);
+
+/// Aligned lines about what has no summary: a checkpoint (checkpoint.h5), a journal (journal.jsonl), a design or study
+/// (TOML), the companion of an XDMF file, or the folder of work that goes on. Read only: takes no lock, repairs
+/// nothing. Throws io::InputError for anything else, saying what can be read.
+std::string describe_file(const std::filesystem::path& path);
+
+}  // namespace perfora::results

@@ -1,0 +1,96 @@
+// What is here: reading JSON that may be damaged, aligned lines. What is not: which lines (summary_labels.cpp).
+#include "results/summary_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/text.h"
+
+namespace perfora::results {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int label_width = 38;
+
+const json& part_in(const json& object, const std::string& key, bool required, bool list) {
+  static const json no_object = json::object(), no_list = json::array();
+  const auto found = object.find(key);
+  if (found != object.end() && (list ? found->is_array() : found->is_object())) return *found;
+  if (!required && (found == object.end() || found->is_null())) return list ? no_list : no_object;
+  throw DamagedSummary(
+      fmt::format("its key `{}` is {}", key, found == object.end() ? "missing" : (list ? "no list" : "no object")));
+}
+
+/// "1 and 2": people count holes from 1.
+std::string wall_pair_text(const json& object) {
+  const Pair pair = pair_in(object, "thinnest_wall_pair");
+  if (!pair.known()) return {};
+  const std::string first = io::count(pair.first + 1.0), second = io::count(pair.second + 1.0);
+  return line_text("  between perforations",
+                   first == second ? first + " and its periodic image" : first + " and " + second);
+}
+
+/// What to print for a key; empty: nothing (walls where there are no perforations).
+std::string entry_text(const Label& label, const json& value) {
+  if (value.is_number()) return io::quantity(value.get<double>(), label.dimension);
+  if (value.is_string()) return value.get<std::string>();
+  return label.key.starts_with("thinnest_wall") ? "" : "not reached";
+}
+
+}  // namespace
+
+double number_in(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+std::string text_in(const json& object, const std::string& key, const std::string& otherwise) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+const json& object_in(const json& object, const std::string& key) {
+  return part_in(object, key, false, false);
+}
+const json& list_in(const json& object, const std::string& key) {
+  return part_in(object, key, false, true);
+}
+const json& required_object(const json& object, const std::string& key) {
+  return part_in(object, key, true, false);
+}
+const json& required_list(const json& object, const std::string& key) {
+  return part_in(object, key, true, true);
+}
+
+bool Pair::known() const {
+  return std::isfinite(first) && std::isfinite(second);
+}
+
+Pair pair_in(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array() || found->size() != 2 || !found->at(0).is_number() ||
+      !found->at(1).is_number())
+    return {std::nan(""), std::nan("")};
+  return {found->at(0).get<double>(), found->at(1).get<double>()};
+}
+
+std::string line_text(std::string_view label, const std::string& value) {
+  return fmt::format("  {:<{}} {}\n", label, label_width, value);
+}
+
+std::string lines_text(std::string_view title, const json& object, std::span<const Label> labels) {
+  std::string text;
+  for (const Label& label : labels) {
+    const auto found = object.find(label.key);
+    if (found == object.end()) continue;
+    const std::string value = entry_text(label, *found);
+    if (!value.empty()) text += line_text(label.label, value);
+    if (label.key == "thinnest_wall") text += wall_pair_text(object);
+  }
+  return text.empty() ? text : fmt::format("{}\n{}", title, text);
+}
+
+}  // namespace perfora::results

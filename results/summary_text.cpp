@@ -1,0 +1,194 @@
+// What is here: which lines the summary of each schema has. What is not: their labels (summary_labels.cpp), tables
+// (summary_tables.cpp).
+#include "results/summary_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "io/error.h"
+#include "io/text.h"
+#include "results/summary_labels.h"
+#include "results/summary_parts.h"
+#include "results/summary_tables.h"
+
+namespace perfora::results {
+
+using nlohmann::json;
+
+namespace {
+
+using io::Dimension;
+
+std::string head_text(const json& object) {
+  std::string text = fmt::format("{}: {}\n", text_in(object, "status", "?"), text_in(object, "reason"));
+  std::string seeds;
+  for (const auto& [name, value] : object_in(object, "seeds").items())
+    if (value.is_number()) seeds += fmt::format("{}{} {}", seeds.empty() ? "" : ", ", name, value.dump());
+  return seeds.empty() ? text : text + line_text("seeds", seeds);
+}
+
+/// "3 min 05 s on 2 threads"
+std::string time_on_threads(const json& object) {
+  const double threads = number_in(object, "threads");
+  const std::string time = io::duration(number_in(object, "seconds"));
+  if (!std::isfinite(threads)) return time;
+  return fmt::format("{} on {} thread{}", time, io::count(threads), threads == 1.0 ? "" : "s");
+}
+
+std::string performance_text(const json& object) {
+  const json& performance = object_in(object, "performance");
+  if (performance.empty()) return {};
+  const auto number = [&](const char* key) { return number_in(performance, key); };
+  std::string text = "Performance\n";
+  // Studies and sweeps go on over several calls; what they cost is the sum over their simulations.
+  if (const double all = number("simulated_seconds"); std::isfinite(all)) {
+    text += line_text("time of the last call", io::duration(number("seconds")));
+    text += line_text("sum of all simulations", io::duration(all));
+  } else {
+    text += line_text("time", time_on_threads(performance));
+  }
+  const auto add = [&](const char* label, double value, Dimension dimension) {
+    if (std::isfinite(value)) text += line_text(label, io::quantity(value, dimension));
+  };
+  if (const double solution = number("solution_seconds"); std::isfinite(solution))
+    text += line_text("  of it for the solution", io::duration(solution));
+  add("steps per second", number("steps_per_second"), Dimension::none);
+  add("time per bond and step", 1e-9 * number("ns_per_bond_step"), Dimension::time);
+  add("largest memory", number("peak_memory"), Dimension::memory);
+  return text;
+}
+
+std::string window_text(const json& object) {
+  const Pair window = pair_in(object, "plateau_window");
+  if (!window.known()) return {};
+  return line_text("plateau window",
+                   io::quantities({window.first, window.second}, Dimension::ratio, " to ") + " strain");
+}
+
+std::string pack_text(const json& object) {
+  return lines_text("Packing", object, packing_labels()) + performance_text(object);
+}
+
+std::string evaluate_text(const json& object) {
+  return lines_text("Packing", object, packing_labels()) + lines_text("Curve", object, curve_labels()) +
+         window_text(object) + lines_text("Breakage at the end", object, damage_labels()) +
+         lines_text("Run", object, run_labels()) + performance_text(object);
+}
+
+std::string elastic_text(const json& object) {
+  std::string text = lines_text("Packing", object, packing_labels()) +
+                     lines_text("Elastic answer", object, elastic_labels()) +
+                     stiffness_table(list_in(object, "stiffness")) +
+                     lines_text("First yield, compression along y at fixed width", object, first_yield_labels());
+  const Pair place = pair_in(object, "first_yield_place");
+  if (place.known())
+    text += line_text("place of the first bond (x, y)",
+                      io::quantities({place.first, place.second}, Dimension::length, ", "));
+  return text + lines_text("Solution", object, solution_labels()) + performance_text(object);
+}
+
+/// The value of a key of a design file.
+std::string key_value_text(const std::string& key, const json& value, const KeyDimension& key_dimension) {
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return io::quantity(value.get<double>(), key_dimension(key));
+  return value.is_string() ? value.get<std::string>() : std::string("none");
+}
+
+/// Best and start design on seeds that the search did not use.
+std::string finals_text(const json& finals) {
+  const double pairs = number_in(finals, "pairs");
+  if (!(pairs > 0.0)) return "Best and start were not compared on fresh seeds\n";
+  std::string text = fmt::format("On {} fresh seeds\n", io::count(pairs));
+  for (const char* whose : {"best", "start"}) {
+    const json& score = object_in(finals, whose);
+    const double mean = number_in(score, "mean"), deviation = number_in(score, "standard_deviation");
+    text += line_text(
+        std::string("plateau of the ") + whose,
+        io::quantity(mean, Dimension::stress) +
+            (std::isfinite(deviation) ? fmt::format(" (deviation {})", io::quantity(deviation, Dimension::stress))
+                                      : std::string()));
+  }
+  const double gain = number_in(finals, "gain"), error = number_in(finals, "gain_standard_error");
+  if (!std::isfinite(error)) return text;
+  const auto significant = finals.find("significant");
+  text += line_text("gain in score over the start",
+                    io::quantities({gain, error}, Dimension::none, " +- ") + " (standard error)");
+  return text + line_text("", significant != finals.end() && *significant == true
+                                  ? "more than two standard errors"
+                                  : "not more than two standard errors, so it may be chance");
+}
+
+std::string optimize_text(const json& object, const KeyDimension& key_dimension) {
+  std::string text = lines_text("Search", object, search_labels());
+  const json& best = object_in(object, "best");
+  if (!best.empty()) text += "Best design\n";
+  for (const auto& [key, value] : best.items()) text += line_text(key, key_value_text(key, value, key_dimension));
+  if (!best.empty() && text_in(object, "status") == "completed") text += finals_text(object_in(object, "finals"));
+  return text + performance_text(object);
+}
+
+std::string calibrate_text(const json& object, const KeyDimension& key_dimension) {
+  std::string text = "Bond parameters found\n";
+  for (const auto& [name, value] : required_object(object, "found").items()) {
+    const std::string key = "material." + name;
+    text += line_text(key, key_value_text(key, value, key_dimension));
+  }
+  return text + targets_table(required_list(object, "targets")) + performance_text(object);
+}
+
+/// One line a number, with its scatter over the samples.
+std::string material_text(const json& object) {
+  const json& material = required_object(object, "material");
+  std::string text = "Material\n";
+  for (const Label& label : material_labels()) {
+    const json& statistic = object_in(material, std::string(label.key));
+    const double mean = number_in(statistic, "mean"), deviation = number_in(statistic, "standard_deviation");
+    if (!std::isfinite(mean)) continue;
+    std::string value = io::quantity(mean, label.dimension);
+    if (std::isfinite(deviation))
+      value += fmt::format(" (deviation {}, {} samples)", io::quantity(deviation, label.dimension),
+                           io::count(number_in(statistic, "count")));
+    text += line_text(label.label, value);
+  }
+  return text + performance_text(object);
+}
+
+}  // namespace
+
+std::string summary_text(const json& object, const KeyDimension& key_dimension, const std::string& source) {
+  using Printer = std::function<std::string(const json&)>;
+  const std::map<std::string, Printer> printers = {
+      {"perfora.pack/1", pack_text},
+      {"perfora.evaluate/1", evaluate_text},
+      {"perfora.elastic/1", elastic_text},
+      {"perfora.ensemble/1", [](const json& o) { return statistics_table(required_object(o, "statistics")); }},
+      {"perfora.sweep/1", [](const json& o) { return performance_text(o) + sweep_table(o); }},
+      {"perfora.optimize/1", [&](const json& o) { return optimize_text(o, key_dimension); }},
+      {"perfora.calibrate/1", [&](const json& o) { return calibrate_text(o, key_dimension); }},
+      {"perfora.test/1", material_text},
+      {"perfora.check/1", [](const json& o) { return estimate_text(o); }}};
+  const std::string schema = object.is_object() ? text_in(object, "schema") : "";
+  const auto printer = printers.find(schema);
+  if (printer == printers.end())
+    throw io::InputError(
+        {source, 0, ""},
+        schema.empty() ? "holds no result of perfora" : "has no summary: its schema is " + io::in_quotes(schema),
+        "results of pack, evaluate, sweep, optimize, calibrate, test and check can be shown");
+  try {
+    return head_text(object) + printer->second(object);
+  } catch (const DamagedSummary& damaged) {
+    throw io::InputError({source, 0, ""}, fmt::format("is damaged: {}", damaged.what()), "",
+                         "make the result again, or restore the file");
+  }
+}
+
+std::string estimate_text(const json& object, const std::string& whose) {
+  std::string text = lines_text(fmt::format("One evaluation{} (estimated from counts; no disc was placed)", whose),
+                                object, estimate_labels());
+  const double seconds = number_in(object, "seconds");
+  return std::isfinite(seconds) ? text + line_text("time, roughly", time_on_threads(object)) : text;
+}
+
+}  // namespace perfora::results
