@@ -45,11 +45,11 @@ struct Driver::View {
     std::vector<const Evaluation*> known;
     for (int replicate = first; replicate < first + count; ++replicate) {
       const std::string& key = book.key(candidate, replicate);
-      const auto found = answers.find(key);
-      if (found != answers.end())
-        known.push_back(&found->second);
+      const Request request = candidate.request(replicate);
+      if (const Evaluation* answer = answer_for(request, key, answers))
+        known.push_back(answer);
       else if (asked.insert(key).second)
-        plan.wanted.push_back({key, candidate.request(replicate), &candidate});
+        plan.wanted.push_back({key, request, &candidate});
     }
     if (static_cast<int>(known.size()) < count) known.clear();
     return known;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/campaign/evaluation_queue.h"
+#include "optimize/evaluate/answers.h"
 #include "optimize/search/candidate.h"
 #include "optimize/search/objective.h"
 #include "optimize/search/study.h"

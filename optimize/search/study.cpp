@@ -159,6 +159,7 @@ struct Reader {
     solver.measures.plateau_start = window[0];
     solver.measures.plateau_end = window[1];
     if (study.keys.until > 0.0) solver.loading.until = study.keys.until;
+    study.fidelities = {{"", changes_without_output(), solver.loading.until}};
     if (solver.loading.until < window[1])
       throw io::InputError(origin(study.keys.until > 0.0 ? "study.until" : "target.window"),
                            fmt::format("the window ends at strain {:g}, the runs end at {:g} before it", window[1],
@@ -260,10 +261,9 @@ std::vector<double> Study::point_of(std::span<const double> values) const {
 }
 
 DesignFile Study::design_at(const Arm* arm, std::span<const double> values) const {
-  DesignFile made;
-  made.design() = start->design();
+  DesignFile made(start->design());
   if (arm)
-    for (const ArmChoice& choice : arm->choices)
+    for (const DesignChange& choice : arm->choices)
       made.schema().set(choice.key, choice.value, {file.string(), choice.value.line, choice.key});
   for (std::size_t k = 0; k < values.size(); ++k)
     made.schema().set_number(variables[k].key, values[k], {file.string(), 0, variables[k].key});

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/evaluate/design.h"
+#include "optimize/evaluate/fidelity.h"
 #include "optimize/search/constraints.h"
 #include "optimize/search/objective.h"
 
@@ -45,17 +45,11 @@ struct Variable {
   io::Dimension dimension = io::Dimension::none;
 };
 
-/// One fixed choice of an arm, such as layout.rows = 3.
-struct ArmChoice {
-  std::string key;
-  io::Value value;
-};
-
 /// One sequential search: family x rows x columns x ... x start.
 struct Arm {
-  std::string name;  ///< "family=square rows=2 columns=3"; "all" when there is only one
-  std::vector<ArmChoice> choices;
-  std::vector<double> start;  ///< first point of a local algorithm, each coordinate in [0, 1]
+  std::string name;                   ///< "family=square rows=2 columns=3"; "all" when there is only one
+  std::vector<DesignChange> choices;  ///< fixed, such as layout.rows = 3
+  std::vector<double> start;          ///< first point of a local algorithm, each coordinate in [0, 1]
   int maxeval = 0;
   std::uint32_t seed = 1;  ///< of NLopt; from the search seed and the arm's name, so that arms do not change each other
 };
@@ -69,6 +63,7 @@ struct Study {
   std::vector<Variable> variables;
   std::vector<Arm> arms;
   std::shared_ptr<const DesignFile> start;  ///< the design it starts from, window and strain of the study set
+  std::vector<Fidelity> fidelities;  ///< what candidates can be evaluated at; the first is what they are scored on
   std::vector<std::string> warnings;
 
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",

@@ -37,7 +37,7 @@ json value_json(const io::Value& value) {
 json design_values(const Study& study, const Candidate& candidate) {
   json values = json::object();
   if (candidate.arm >= 0)
-    for (const ArmChoice& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
+    for (const DesignChange& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
       values[choice.key] = value_json(choice.value);
   for (std::size_t k = 0; k < candidate.values.size(); ++k) values[study.variables[k].key] = candidate.values[k];
   return values;
