@@ -16,6 +16,8 @@
 
 namespace perfora::optimize {
 
+class Searcher;
+
 /// [study]
 struct StudyKeys {
   std::filesystem::path design;           ///< design file the search starts from; relative to the study file
@@ -51,7 +53,8 @@ struct Arm {
   std::vector<DesignChange> choices;  ///< fixed, such as layout.rows = 3
   std::vector<double> start;          ///< first point of a local algorithm, each coordinate in [0, 1]
   int maxeval = 0;
-  std::uint32_t seed = 1;  ///< of NLopt; from the search seed and the arm's name, so that arms do not change each other
+  std::uint32_t seed =
+      1;  ///< of its search; from the search seed and the arm's name, so that arms do not change each other
 };
 
 /// A study, read and checked. Copies share the design.
@@ -62,7 +65,9 @@ struct Study {
   ConstraintKeys constraints;
   std::vector<Variable> variables;
   std::vector<Arm> arms;
-  std::shared_ptr<const DesignFile> start;  ///< the design it starts from, window and strain of the study set
+  std::shared_ptr<const Searcher> searcher;  ///< has keys.algorithm
+  std::shared_ptr<const Searcher> refiner;   ///< has keys.refine; nullptr without a second stage
+  std::shared_ptr<const DesignFile> start;   ///< the design it starts from, window and strain of the study set
   std::vector<Fidelity> fidelities;  ///< what candidates can be evaluated at; the first is what they are scored on
   std::vector<std::string> warnings;
 
@@ -85,6 +90,9 @@ struct Study {
 /// Reads and checks a study file and the design it names. `overrides` are "section.key=value" texts; those of [study],
 /// [target] and [constraints] go to the study, all others to the design. Throws io::InputError.
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// The same with these searchers behind study.algorithm and study.refine.
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const std::vector<std::shared_ptr<const Searcher>>& searchers);
 
 /// Keys of a study file in one printed reference (Markdown).
 std::string study_reference();

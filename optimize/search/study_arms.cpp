@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "io/journal.h"
-#include "optimize/search/nlopt_search.h"
 
 namespace perfora::optimize {
 namespace {

@@ -7,7 +7,7 @@
 #include "io/csv.h"
 #include "io/journal.h"
 #include "io/text.h"
-#include "optimize/search/nlopt_search.h"
+#include "optimize/search/searcher.h"
 
 namespace perfora::optimize {
 namespace {
@@ -138,13 +138,14 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
 json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
+  const Searcher::Library library = study.searcher->library();
   json record = {{"schema", "perfora.optimize/1"},
                  {"status", results::status_name(run.status())},
                  {"reason", run.reason()},
                  {"seeds", to_json(study.start->design().seeds.effective(0))},
                  {"results_version", results_version},
                  {"algorithm", study.keys.algorithm},
-                 {"nlopt_version", nlopt_version_text()},
+                 {library.name + "_version", library.version},
                  {"target", study.target.plateau_stress},
                  {"plateau_window", study.target.window},
                  {"until", study.until()},

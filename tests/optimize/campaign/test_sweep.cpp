@@ -220,6 +220,23 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
     EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
 }
 
+// Strain and window are no part of a run's path: such cases have one key, and each its own answer.
+TEST_F(SweepTest, CasesThatDifferInStrainOrWindowAreAnsweredEach) {
+  const std::string text =
+      sweep_text("[each]\nloading.until = [0.45, 0.5]\nmeasures.plateau_end = [0.3]\n", "replicates = 2\nbase = true");
+  for (const bool resume : {false, true}) {
+    SweepRun run(sweep(text), options("out", resume));
+    run.run();
+    EXPECT_EQ(asked, 8) << "resumed: nothing more";
+    EXPECT_EQ(run.reason(), "8 of 8 runs completed");
+    const auto& cases = run.sweep().cases;
+    EXPECT_EQ(cases[1].request(0).key(), cases[3].request(0).key());
+    EXPECT_EQ(run.known(cases[1], 1)->summary.final_strain, 0.45);
+    EXPECT_EQ(run.known(cases[2], 1)->summary.final_strain, 0.5);
+    EXPECT_EQ(run.known(cases[3], 1)->summary.plateau_end, 0.3);
+  }
+}
+
 // The journal of a program that knew a key less (under other names of its requests) and gave the same results is gone
 // on with; one of other results is not.
 TEST_F(SweepTest, AnOlderProgramsJournalIsGoneOnWith) {
