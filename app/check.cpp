@@ -131,11 +131,11 @@ int check_sweep(const CheckFlags& flags) {
       text += line(name, one.label + " (cannot be run)");
       continue;
     }
-    auto design = optimize::DesignFile::from_toml(one.design_toml, "case");
+    auto design = optimize::DesignFile::of(*one.design, "case");
     const optimize::DesignEstimate estimate = optimize::estimate_design(design, 1);
     const double each = estimate.seconds;
     most_memory = std::max(most_memory, estimate.memory_bytes);
-    const bool counted = !designs.insert(one.design_toml).second;
+    const bool counted = !designs.insert(one.request(0).full_key()).second;
     text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : io::duration(each)));
     if (!counted) seconds += each * sweep.keys.replicates;
     if (each <= longest) continue;

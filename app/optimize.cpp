@@ -121,7 +121,7 @@ void add_facts(report::StudyPicture& picture, const optimize::StudyRun& run) {
   const Candidate& best = *run.plan().best;
   const Candidate& start = *run.plan().start.candidate;
   const auto& schema = study.start->schema();
-  for (const optimize::ArmChoice& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
+  for (const optimize::DesignChange& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
     picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::readable(choice.value),
                              io::readable(schema.find(choice.key)->get())});
   for (std::size_t k = 0; k < study.variables.size(); ++k) {

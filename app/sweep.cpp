@@ -126,7 +126,7 @@ bool draw_collapse(const optimize::SweepRun& run) {
   std::vector<report::LabelledRun> rows;
   for (const SweepCase& one : run.sweep().cases) {
     if (!run.known(one, 0)) continue;
-    const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0).key());
+    const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0));
     if (fs::exists(file)) rows.push_back({one.label, results::read_run(file)});
   }
   report::PlotOptions options;

@@ -6,18 +6,26 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/request.h"
 
 namespace perfora::app {
 
 namespace {
 
+/// A design that this program cannot read is a failed evaluation like one that cannot be evaluated.
+optimize::Evaluation answer(const nlohmann::json& record, int threads) {
+  try {
+    return optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token());
+  } catch (const io::InputError& error) {
+    return optimize::failed_evaluation(error.what(), record.at("replicate").get<int>());
+  }
+}
+
 int work(int threads) {
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
-    const optimize::Request request = optimize::request_from_json(nlohmann::json::parse(line));
-    const optimize::Evaluation evaluation = optimize::evaluate_request(request, threads, stop_token());
+    const optimize::Evaluation evaluation = answer(nlohmann::json::parse(line), threads);
     print_text(optimize::to_json(evaluation, true).dump() + "\n");
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.

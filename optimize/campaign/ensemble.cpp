@@ -10,6 +10,7 @@
 
 #include "io/journal.h"
 #include "optimize/campaign/work_folder.h"
+#include "optimize/evaluate/request.h"
 
 namespace perfora::optimize {
 
@@ -38,7 +39,7 @@ constexpr Result listed_results[] = {
 
 /// Names an ensemble whatever the number of replicates.
 std::string ensemble_key(const DesignFile& design) {
-  return make_request(design, 0).key();
+  return make_request(design, 0).full_key();
 }
 
 fs::path journal_path(const fs::path& folder) {

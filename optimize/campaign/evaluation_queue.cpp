@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <thread>
 
 #include "io/journal.h"
@@ -21,6 +22,19 @@ constexpr double curve_step = 0.005;
 constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
 constexpr const char* evaluation_event = "evaluation";
 constexpr const char* runs_folder = "runs";
+
+/// The key that the request of a journal's evaluation has today: the program that wrote it may have known fewer keys
+/// of the design, or put more into a request's key. One of other results, or that is no design of this program, keeps
+/// the key it was written with, which nobody asks for.
+std::string key_of(const json& record, bool same_results) {
+  const std::string written = record.at("key").get<std::string>();
+  if (!same_results || !record.contains("request")) return written;
+  try {
+    return request_from_json(record.at("request")).key();
+  } catch (const io::InputError&) {
+    return written;
+  }
+}
 
 }  // namespace
 
@@ -58,7 +72,7 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
   for (const std::string& text : journal_->events()) {
     const json record = json::parse(text);
     if (record.value("event", "") == evaluation_event) {
-      take_evaluation(record, version == results_version);
+      take_evaluation(key_of(record, version == results_version), record);
       continue;
     }
     version = record.value("results_version", version);
@@ -72,11 +86,8 @@ void EvaluationQueue::note(const json& event) {
   journal_->append(event.dump());
 }
 
-void EvaluationQueue::take_evaluation(const json& record, bool of_this_version) {
-  // An older program with the same results may have known fewer keys: what was asked then has the key of today.
-  const std::string key = of_this_version && record.contains("request") ? request_from_json(record.at("request")).key()
-                                                                        : record.at("key").get<std::string>();
-  answers_.insert_or_assign(key, results::evaluation_from_json(record.at("evaluation")));
+void EvaluationQueue::take_evaluation(const std::string& key, const json& record) {
+  answers_.add(key, results::evaluation_from_json(record.at("evaluation")));
   simulated_seconds_ += record.value("seconds", 0.0);
   retries_ += record.value("attempts", 1) - 1;
 }
@@ -90,9 +101,8 @@ void EvaluationQueue::record(const Asked& asked, Answer answer) {
                       {"evaluation", to_json(answer.evaluation, true)},
                       {"attempts", answer.attempts},
                       {"seconds", answer.seconds}};
-  const std::string text = event.dump();
-  journal_->append(text);
-  take_evaluation(json::parse(text), true);  // The same way as on resume, so that both see the same numbers.
+  journal_->append(event.dump());
+  take_evaluation(answer.key, event);  // The same way as on resume, so that both see the same numbers.
 }
 
 std::string EvaluationQueue::time_left(std::int64_t remaining) const {
@@ -102,20 +112,20 @@ std::string EvaluationQueue::time_left(std::int64_t remaining) const {
   return fmt::format("; at most {} left", io::duration(mean * static_cast<double>(remaining) / parallel));
 }
 
-std::filesystem::path EvaluationQueue::run_file(const std::string& key) {
-  return std::filesystem::path(runs_folder) / (key + ".h5");
+std::filesystem::path EvaluationQueue::run_file(const Request& request) {
+  return std::filesystem::path(runs_folder) / (request.full_key() + ".h5");
 }
 
 void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
   std::filesystem::create_directories(options_.folder / runs_folder);
   Request request = asked.request;
-  request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.key));
+  request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
   request.frames = options_.keep_run_files;
   executor.submit(asked.key, request);
 }
 
-void EvaluationQueue::drop_run_file(const std::string& key) const {
-  std::filesystem::path path = options_.folder / run_file(key);
+void EvaluationQueue::drop_run_file(const Request& request) const {
+  std::filesystem::path path = options_.folder / run_file(request);
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
   std::filesystem::remove_all(path.replace_extension(".part"), ignored);
@@ -140,9 +150,11 @@ bool EvaluationQueue::run(const Next& next, const Answered& answered) {
       continue;  // It may have died of the same signal.
     const Asked asked = in_flight_.at(answer->key);
     record(asked, std::move(*answer));
-    if (!options_.keep_run_files) drop_run_file(asked.key);
+    const Evaluation* evaluation = answer_for(asked.request, asked.key, answers_);
+    if (!evaluation) throw std::logic_error("an evaluation does not answer its request: " + asked.label);
+    if (!options_.keep_run_files) drop_run_file(asked.request);
     wanted = next();
-    answered(asked, answers_.at(asked.key));
+    answered(asked, *evaluation);
     in_flight_.erase(asked.key);
   }
   if (executor) executor->stop();

@@ -13,15 +13,13 @@
 
 #include "io/cancellation.h"
 #include "optimize/campaign/executor.h"
+#include "optimize/evaluate/answers.h"
 
 namespace perfora::io {
 class Journal;
 }
 
 namespace perfora::optimize {
-
-/// Evaluations by request key.
-using Answers = std::map<std::string, Evaluation>;
 
 /// One question to an executor.
 struct Asked {
@@ -68,8 +66,8 @@ class EvaluationQueue {
   /// journal. True: done; false: stopped, what is finished is kept.
   bool run(const Next& next, const Answered& answered);
 
-  /// DIR/runs/KEY.h5, relative to the folder.
-  static std::filesystem::path run_file(const std::string& key);
+  /// DIR/runs/KEY.h5, relative to the folder, by the request's full key.
+  static std::filesystem::path run_file(const Request& request);
 
   int workers() const { return workers_; }  ///< of the last run(); 1 before
   std::size_t in_flight() const { return in_flight_.size(); }
@@ -79,10 +77,10 @@ class EvaluationQueue {
   std::string time_left(std::int64_t remaining) const;
 
  private:
-  void take_evaluation(const nlohmann::json& record, bool of_this_version);
+  void take_evaluation(const std::string& key, const nlohmann::json& record);
   void record(const Asked& asked, Answer answer);
   void submit(Executor& executor, const Asked& asked) const;
-  void drop_run_file(const std::string& key) const;
+  void drop_run_file(const Request& request) const;
 
   WorkOptions options_;
   std::unique_ptr<io::Journal> journal_;

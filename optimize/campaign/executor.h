@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/request.h"
 
 namespace perfora::optimize {
 

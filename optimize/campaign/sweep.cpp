@@ -157,11 +157,9 @@ struct Reader {
     for (const std::string& text : of_design) start->schema().set_override(text);
     for (const std::string& text : of_design) refuse_varied(trimmed(text.substr(0, text.find('='))), "--set");
     for (const io::Entry& entry : fixed) refuse_in(rows, grid, entry.key, "set." + entry.key, entry.value.line);
-    if (sweep.keys.until > 0.0) {
-      refuse_varied("loading.until", "sweep.until");
-      start->design().solver.loading.until = sweep.keys.until;
-    }
-    drop_output(start->design());
+    if (sweep.keys.until > 0.0) refuse_varied("loading.until", "sweep.until");
+    const Fidelity fidelity{"", changes_without_output(), sweep.keys.until};
+    apply(fidelity, *start, {path.string(), 0, "sweep.until"});
     sweep.start = start;
     for (const Axis& axis : grid)
       if (sweep.grid_key.empty() || axis.values.size() > 1) sweep.grid_key = axis.key;
@@ -245,17 +243,17 @@ struct Reader {
                        [&](const Axis& axis) { return axis.key == key && axis.values.size() == 1; });
   }
 
-  std::string label_of(const std::vector<SweepSetting>& settings) const {
+  std::string label_of(const std::vector<DesignChange>& settings) const {
     std::string label;
     const bool all = std::all_of(settings.begin(), settings.end(), [&](const auto& one) { return constant(one.key); });
-    for (const SweepSetting& setting : settings)
+    for (const DesignChange& setting : settings)
       if (all || !constant(setting.key))
         label += fmt::format("{}{} {}", label.empty() ? "" : ", ", io::after_section(setting.key),
                              io::readable(setting.value));
     return label;
   }
 
-  void add(std::vector<SweepSetting> settings, const std::string& group, const std::string& name) {
+  void add(std::vector<DesignChange> settings, const std::string& group, const std::string& name) {
     SweepCase made;
     made.number = settings.empty() ? 0 : ++numbered;
     made.group = group;
@@ -267,12 +265,12 @@ struct Reader {
       return;
     }
     DesignFile design = sweep.start->clone();
-    for (const SweepSetting& setting : made.settings) {
+    for (const DesignChange& setting : made.settings) {
       design.schema().set(setting.key, setting.value, {path.string(), setting.value.line, setting.key});
       if (std::find(sweep.columns.begin(), sweep.columns.end(), setting.key) == sweep.columns.end())
         sweep.columns.push_back(setting.key);
     }
-    made.design_toml = design.schema().to_toml();
+    made.design = std::make_shared<const Design>(design.design());
     try {
       for (const std::string& warning : design.validate()) warnings.add(warning, made);
     } catch (const io::InputError& error) {
@@ -283,7 +281,7 @@ struct Reader {
   }
 
   /// All combinations of [grid] from axis `next` on, the last one fastest.
-  void add_grid(std::vector<SweepSetting> settings, std::size_t next, const std::string& name) {
+  void add_grid(std::vector<DesignChange> settings, std::size_t next, const std::string& name) {
     if (next == grid.size()) {
       const std::string rest =
           name.empty() || grid.empty()
@@ -302,7 +300,7 @@ struct Reader {
     if (sweep.keys.base) add({}, "", "");
     if (rows.empty() && !grid.empty()) add_grid({}, 0, "");
     for (std::size_t row = 0; !rows.empty() && row < rows.front().values.size(); ++row) {
-      std::vector<SweepSetting> settings;
+      std::vector<DesignChange> settings;
       for (const Axis& axis : rows) settings.push_back({axis.key, axis.values[row]});
       add_grid(std::move(settings), 0, names.empty() ? "" : io::readable(names[row]));
     }
@@ -328,7 +326,7 @@ int Sweep::workers(int asked) const {
 std::int64_t Sweep::runs() const {
   std::set<std::string> designs;
   for (const SweepCase& one : cases)
-    if (one.problem.empty()) designs.insert(one.design_toml);
+    if (one.problem.empty()) designs.insert(one.request(0).full_key());
   return static_cast<std::int64_t>(designs.size()) * keys.replicates;
 }
 

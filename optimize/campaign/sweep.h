@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "optimize/evaluate/design.h"
-#include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/request.h"
 
 namespace perfora::optimize {
 
@@ -23,23 +23,17 @@ struct SweepKeys {
   std::string measures = "first_peak_stress, plateau_stress, densification_strain";  ///< that the picture shows
 };
 
-/// One key of a case, with its value as written.
-struct SweepSetting {
-  std::string key;
-  io::Value value;
-};
-
 /// One row of the table.
 struct SweepCase {
   int number = 0;     ///< from 1 in the order of the file; 0: the design itself
   std::string label;  ///< "horizon 2, amplitude 1.8", or its name in [rows]
   /// What is drawn together: "" for [rows] and [grid], the key for [each].
   std::string group;
-  std::vector<SweepSetting> settings;  ///< beyond the design and [set]
-  std::string design_toml;             ///< resolved design
-  std::string problem;                 ///< why it cannot be run; empty: it can
+  std::vector<DesignChange> settings;    ///< beyond the design and [set]
+  std::shared_ptr<const Design> design;  ///< resolved
+  std::string problem;                   ///< why it cannot be run; empty: it can
 
-  Request request(int replicate) const { return {design_toml, replicate, 0.0}; }
+  Request request(int replicate) const { return {design, replicate}; }
 };
 
 /// A sweep, read and checked. Copies share the design.

@@ -18,9 +18,8 @@ std::string field(double value) {
   return std::isfinite(value) ? fmt::format(",{:.12g}", value) : std::string(",");
 }
 
-/// Value of a key in a case, SI, as its design has it.
-json value_of(const SweepCase& one, const std::string& key) {
-  const DesignFile design = DesignFile::from_toml(one.design_toml, "case");
+/// Value of a key, SI.
+json value_of(const DesignFile& design, const std::string& key) {
   const io::Value value = design.schema().find(key)->get();
   if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
   if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return *whole;
@@ -31,8 +30,9 @@ json value_of(const SweepCase& one, const std::string& key) {
 
 std::string case_columns(const SweepRun& run, const SweepCase& one) {
   std::string line = fmt::format("{},{}", one.number, io::csv_quoted(one.label));
+  const DesignFile design(*one.design);
   for (const std::string& key : run.sweep().columns) {
-    const json value = value_of(one, key);
+    const json value = value_of(design, key);
     line += ',';
     if (value.is_string())
       line += io::csv_quoted(value.get<std::string>());
@@ -92,7 +92,8 @@ json to_json(const SweepRun& run) {
   for (const SweepCase& one : run.sweep().cases) {
     const CaseResult result = case_result(run, one);
     json settings = json::object();
-    for (const std::string& key : run.sweep().columns) settings[key] = value_of(one, key);
+    const DesignFile design(*one.design);
+    for (const std::string& key : run.sweep().columns) settings[key] = value_of(design, key);
     json record = {{"case", one.number},
                    {"label", one.label},
                    {"settings", settings},
@@ -155,7 +156,7 @@ std::string runs_csv(const SweepRun& run) {
                                                    evaluation->seeds.packing, evaluation->seeds.noise);
       for (const double value : measures_of(*evaluation)) text += field(value);
       text += field(evaluation->performance.seconds) + "," + evaluation->performance.simd + ",";
-      const auto file = EvaluationQueue::run_file(one.request(replicate).key());
+      const auto file = EvaluationQueue::run_file(one.request(replicate));
       if (std::filesystem::exists(run.options().folder / file)) text += file.string();
       text += "\n";
     }

@@ -33,23 +33,24 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
                   {"command_line", queue_->options().command_line},
                   {"file", sweep_.file.filename().string()}});
   for (const SweepCase& one : sweep_.cases) {
-    std::vector<std::string> keys;
-    for (int replicate = 0; one.problem.empty() && replicate < sweep_.keys.replicates; ++replicate)
-      keys.push_back(one.request(replicate).key());
-    keys_.push_back(std::move(keys));
+    std::vector<Run>& runs = runs_.emplace_back();
+    for (int replicate = 0; one.problem.empty() && replicate < sweep_.keys.replicates; ++replicate) {
+      const Request request = one.request(replicate);
+      runs.push_back({{request.key(), request, one.label}, request.full_key()});
+    }
   }
 }
 
 SweepRun::~SweepRun() = default;
 
-const std::string& SweepRun::key_of(const SweepCase& one, int replicate) const {
-  return keys_[static_cast<std::size_t>(&one - sweep_.cases.data())][static_cast<std::size_t>(replicate)];
+const SweepRun::Run& SweepRun::run_of(const SweepCase& one, int replicate) const {
+  return runs_[static_cast<std::size_t>(&one - sweep_.cases.data())][static_cast<std::size_t>(replicate)];
 }
 
 const Evaluation* SweepRun::known(const SweepCase& one, int replicate) const {
   if (!one.problem.empty()) return nullptr;
-  const auto found = queue_->answers().find(key_of(one, replicate));
-  return found == queue_->answers().end() ? nullptr : &found->second;
+  const Asked& asked = run_of(one, replicate).asked;
+  return answer_for(asked.request, asked.key, queue_->answers());
 }
 
 const Evaluation* SweepRun::completed(const SweepCase& one, int replicate) const {
@@ -62,8 +63,8 @@ std::vector<Asked> SweepRun::wanted() const {
   std::set<std::string> seen;  // Cases that come to the same design are one run.
   for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
     for (const SweepCase& one : sweep_.cases)
-      if (one.problem.empty() && !known(one, replicate) && seen.insert(key_of(one, replicate)).second)
-        asked.push_back({key_of(one, replicate), one.request(replicate), one.label});
+      if (one.problem.empty() && !known(one, replicate) && seen.insert(run_of(one, replicate).full_key).second)
+        asked.push_back(run_of(one, replicate).asked);
   return asked;
 }
 
@@ -83,10 +84,10 @@ void SweepRun::run() {
   const auto begin = std::chrono::steady_clock::now();
   const bool done = queue_->run([this] { return wanted(); },
                                 [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
-  std::set<std::string> reached;  // by key: cases that come to the same design are one run
+  std::set<std::string> reached;  // by full key: cases that come to the same design are one run
   for (const SweepCase& one : sweep_.cases)
     for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
-      if (completed(one, replicate)) reached.insert(key_of(one, replicate));
+      if (completed(one, replicate)) reached.insert(run_of(one, replicate).full_key);
   status_ = !done              ? results::RunStatus::stopped
             : !reached.empty() ? results::RunStatus::completed
                                : results::RunStatus::failed;

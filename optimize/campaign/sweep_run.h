@@ -38,11 +38,16 @@ class SweepRun {
  private:
   std::vector<Asked> wanted() const;
   void say(const Asked& asked, const Evaluation& evaluation);
-  const std::string& key_of(const SweepCase& one, int replicate) const;
+  struct Run {
+    Asked asked;
+    std::string full_key;  ///< cases that come to the same design are one run
+  };
+  /// One replicate of a case that can be run.
+  const Run& run_of(const SweepCase& one, int replicate) const;
 
   Sweep sweep_;
   std::unique_ptr<EvaluationQueue> queue_;
-  std::vector<std::vector<std::string>> keys_;  ///< by case and replicate; empty where a case cannot be run
+  std::vector<std::vector<Run>> runs_;  ///< by case and replicate; empty where a case cannot be run
   results::RunStatus status_ = results::RunStatus::completed;
   std::string reason_;
   double seconds_ = 0.0;

@@ -34,10 +34,22 @@ DesignFile::DesignFile() : design_(std::make_unique<Design>()), schema_(std::mak
   describe(*schema_, *design_);
 }
 
+DesignFile::DesignFile(const Design& design) : DesignFile() {
+  *design_ = design;
+}
+
 DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides) : DesignFile() {
   path_ = path;
   io::apply_toml(*schema_, path);
   for (const std::string& text : overrides) schema_->set_override(text);
+}
+
+DesignFile DesignFile::of(const Design& design, const std::string& name) {
+  const DesignFile source(design);
+  DesignFile result;
+  for (const io::Key& key : source.schema().keys())
+    result.schema().set(key.full_name(), key.get(), {name, 0, key.full_name()});
+  return result;
 }
 
 DesignFile DesignFile::from_toml(const std::string& text, const std::string& name) {
@@ -47,8 +59,7 @@ DesignFile DesignFile::from_toml(const std::string& text, const std::string& nam
 }
 
 DesignFile DesignFile::clone() const {
-  DesignFile copy;
-  *copy.design_ = *design_;
+  DesignFile copy(*design_);
   copy.schema_->take_origins(*schema_);
   copy.path_ = path_;
   return copy;

@@ -43,7 +43,10 @@ void describe(io::Schema& schema, Design& design);
 /// A design with its table of keys (bound to it) and where each value came from.
 class DesignFile {
  public:
-  DesignFile();  ///< defaults
+  DesignFile();                               ///< defaults
+  explicit DesignFile(const Design& design);  ///< a design with no file behind it
+  /// The same as if a file `name` had set every key: each value is checked, and messages name that file.
+  static DesignFile of(const Design& design, const std::string& name);
   explicit DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
   /// From TOML text, such as schema().to_toml() gives; `name` stands for the file in messages.
   static DesignFile from_toml(const std::string& text, const std::string& name);

@@ -1,6 +1,5 @@
-// What is here: the one record of the project, Request -> Evaluation, the function that walks the whole way, and its
-// JSON form (cache key, journal line, message to a worker, result of the command line). What is not: the search
-// (driver.h), processes (executor.h).
+// What is here: one evaluation of a design, the function that walks the whole way to it, and its JSON form (journal
+// line, answer of a worker, result of the command line). What is not: requests (request.h), processes (executor.h).
 #pragma once
 
 #include <filesystem>
@@ -82,28 +81,5 @@ using results::number;
 /// schema "perfora.pack/1": what `perfora pack --json` prints; status "failed" when the packing was not reached.
 nlohmann::json pack_record(const PackedDesign& packed, const Seeds::Effective& seeds,
                            const results::Performance& performance);
-/// One request of a search: the resolved design as TOML text, replicate, results_version. Equal requests have equal
-/// keys.
-struct Request {
-  std::string design_toml;
-  int replicate = 0;
-  double until = 0.0;
-  /// Where the run is written, and gone on with when it is there (finished or not) from the same instruction set;
-  /// empty: nowhere. No part of the key.
-  std::filesystem::path run_file = {};
-  bool frames = false;  ///< few frames in the run file; otherwise none. No part of the key
-  /// Hash over the design's keys that are not at their defaults, replicate, strain and results_version: a key that the
-  /// program learns later leaves it as it is.
-  std::string key() const;
-};
-nlohmann::json to_json(const Request& request);
-Request request_from_json(const nlohmann::json& record);
-/// The request for one replicate of a design; `until` = 0: as far as the design says.
-Request make_request(const DesignFile& design, int replicate, double until = 0.0);
-/// Frames and checkpoints change no result; left in a request's design, they would change its key.
-void drop_output(Design& design);
-/// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
-/// Evaluation with status `failed` and the reason, so that a search goes on.
-Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation = {});
 
 }  // namespace perfora::optimize

@@ -1,60 +1,91 @@
-// What is here: the request of one evaluation, its key and its JSON form. What is not: who carries requests
+// What is here: the request of one evaluation, its keys and its JSON form. What is not: who carries requests
 // (executor.h).
+#include "optimize/evaluate/request.h"
+
+#include <algorithm>
+#include <array>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid.hpp>
 #include <boost/uuid/uuid_io.hpp>
+#include <string_view>
 
-#include "optimize/evaluate/evaluation.h"
+#include "io/text.h"
 
 namespace perfora::optimize {
 
 namespace {
 
-/// What is asked of a design, whatever keys the program that wrote it down knew; text that is no design as it is.
-std::string identity_of(const std::string& design_toml) {
-  try {
-    return DesignFile::from_toml(design_toml, "request").schema().changed_toml();
-  } catch (const io::InputError&) {
-    return design_toml;
-  }
-}
+using nlohmann::json;
 
-}  // namespace
+/// Keys, and sections (with a dot behind), of a design that do not change the path of a run.
+constexpr std::array<std::string_view, 7> beside_the_path = {
+    "measures.",      // read from the finished curve
+    "test.",          // tests of the solid material
+    "loading.until",  // how far: the path up to there is the same
+    "output.frames",  // frames and checkpoints have no side effect;
+    "output.frame_strains",
+    "output.checkpoint_interval",  // history_interval sets the segments of the loading and stays in the key
+    "seeds.search",                // of the search alone
+};
 
-std::string Request::key() const {
-  // SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
-  nlohmann::json identity = to_json(Request{identity_of(design_toml), replicate, until});
+/// SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
+std::string hash(json identity) {
   identity["results_version"] = results_version;
   const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
   return boost::uuids::to_string(generator(identity.dump()));
 }
 
-nlohmann::json to_json(const Request& request) {
-  nlohmann::json record = {{"design", request.design_toml}, {"replicate", request.replicate}, {"until", request.until}};
+}  // namespace
+
+bool changes_path(const std::string& key) {
+  return std::none_of(beside_the_path.begin(), beside_the_path.end(), [&](std::string_view other) {
+    return other.back() == '.' ? key.starts_with(other) : key == other;
+  });
+}
+
+std::string Request::key() const {
+  const DesignFile file(*design);
+  json path = json::object();
+  for (const io::Key& one : file.schema().keys())
+    if (!one.at_default() && changes_path(one.full_name())) path[one.full_name()] = io::value_text(one.get());
+  return hash({{"path", path}, {"replicate", replicate}});
+}
+
+std::string Request::full_key() const {
+  return hash({{"design", DesignFile(*design).schema().changed_toml()}, {"replicate", replicate}, {"until", until}});
+}
+
+json to_json(const Request& request) {
+  json record = {{"design", DesignFile(*request.design).schema().to_toml()},
+                 {"replicate", request.replicate},
+                 {"until", request.until}};
+  if (!request.fidelity.empty()) record["fidelity"] = request.fidelity;
   if (request.run_file.empty()) return record;
   record["run_file"] = request.run_file.string();
   record["frames"] = request.frames;
   return record;
 }
 
-Request request_from_json(const nlohmann::json& record) {
-  return {record.at("design").get<std::string>(), record.at("replicate").get<int>(), record.at("until").get<double>(),
-          record.value("run_file", ""), record.value("frames", false)};
+Request request_from_json(const json& record) {
+  const DesignFile design = DesignFile::from_toml(record.at("design").get<std::string>(), "request");
+  Request request = make_request(design, record.at("replicate").get<int>(), record.at("until").get<double>());
+  request.fidelity = record.value("fidelity", "");
+  request.run_file = record.value("run_file", "");
+  request.frames = record.value("frames", false);
+  return request;
 }
 
 Request make_request(const DesignFile& design, int replicate, double until) {
-  return {design.schema().to_toml(), replicate, until};
-}
-
-void drop_output(Design& design) {
-  design.solver.output.frames = solver::FrameChoice::none;
-  design.solver.output.frame_strains.clear();
-  design.solver.output.checkpoint_interval = solver::OutputOptions{}.checkpoint_interval;
+  Request request;
+  request.design = std::make_shared<const Design>(design.design());
+  request.replicate = replicate;
+  request.until = until;
+  return request;
 }
 
 Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation) {
   try {
-    DesignFile design = DesignFile::from_toml(request.design_toml, "request");
+    DesignFile design = DesignFile::of(*request.design, "request");
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
     static_cast<void>(design.validate());
     EvaluateOptions options;

@@ -25,15 +25,23 @@ std::string label_of(const Study& study, int arm, std::span<const double> values
   return label;
 }
 
+/// Throws io::InputError when the design is not valid at this fidelity.
+Request request_at(const DesignFile& design, const Fidelity& fidelity, const std::string& file) {
+  DesignFile resolved = design.clone();
+  apply(fidelity, resolved, {file, 0, ""});
+  static_cast<void>(resolved.validate());
+  Request request = make_request(resolved, 0, fidelity.until);
+  request.fidelity = fidelity.name;
+  return request;
+}
+
 Candidate make_candidate(const Study& study, int arm, std::span<const double> values) {
   Candidate candidate;
   candidate.arm = arm;
   candidate.values.assign(values.begin(), values.end());
   candidate.label = label_of(study, arm, values);
-  candidate.until = study.until();
   try {
-    DesignFile design = study.design_at(arm_of(study, arm), values);
-    drop_output(design.design());
+    const DesignFile design = study.design_at(arm_of(study, arm), values);
     candidate.layout = measure_layout(design);
     candidate.limits = constraint_values(study.constraints, design, candidate.layout);
     candidate.violation = violation(candidate.limits);
@@ -41,11 +49,12 @@ Candidate make_candidate(const Study& study, int arm, std::span<const double> va
       candidate.problem = candidate.layout.placed ? "breaks a constraint" : candidate.layout.problem;
       return candidate;
     }
-    static_cast<void>(design.validate());
-    candidate.design_toml = design.schema().to_toml();
+    for (const Fidelity& fidelity : study.fidelities)
+      candidate.requests.push_back(request_at(design, fidelity, study.file.string()));
   } catch (const io::InputError& error) {
     candidate.problem = error.problem();
     candidate.violation = refused_violation;
+    candidate.requests.clear();
     candidate.limits.assign(constraint_names(study.constraints).size(), refused_violation);
   }
   return candidate;
@@ -54,7 +63,7 @@ Candidate make_candidate(const Study& study, int arm, std::span<const double> va
 bool holds_start(const Study& study, const Arm& arm) {
   const io::Schema& schema = study.start->schema();
   const DesignFile same = study.design_at(&arm, {});
-  return std::all_of(arm.choices.begin(), arm.choices.end(), [&](const ArmChoice& choice) {
+  return std::all_of(arm.choices.begin(), arm.choices.end(), [&](const DesignChange& choice) {
     const io::Key* own = schema.find(choice.key);
     const io::Key* other = same.schema().find(choice.key);
     return own && other && io::value_text(own->get()) == io::value_text(other->get());

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/request.h"
 #include "optimize/search/study.h"
 
 namespace perfora::optimize {
@@ -20,13 +20,16 @@ struct Candidate {
   std::vector<double> values;  ///< of the variables, SI
   std::string label;           ///< "rows=2 columns=2, diameter 16.2 mm"
   LayoutMeasure layout;
-  std::vector<double> limits;  ///< constraint values, kept where <= 0
-  double violation = 0.0;      ///< > 0: costs no simulation
-  std::string problem;         ///< why it cannot be simulated; empty otherwise
-  std::string design_toml;     ///< resolved design
-  double until = 0.0;
+  std::vector<double> limits;     ///< constraint values, kept where <= 0
+  double violation = 0.0;         ///< > 0: costs no simulation
+  std::string problem;            ///< why it cannot be simulated; empty otherwise
+  std::vector<Request> requests;  ///< for replicate 0, one a fidelity of the study; empty where it cannot be simulated
 
-  Request request(int replicate) const { return {design_toml, replicate, until}; }
+  Request request(int replicate, std::size_t fidelity = 0) const {
+    Request one = requests.at(fidelity);
+    one.replicate = replicate;
+    return one;
+  }
 };
 
 /// Candidates by arm and values. A memory only: the same question always has the same answer.

@@ -1,12 +1,10 @@
-// What is here: the search by replay. What is not: NLopt itself (nlopt_search.cpp), the journal.
+// What is here: the stages of a study, its incumbent, the comparison on fresh seeds. What is not: the algorithms
+// (searcher.h), the journal.
 #include "optimize/search/driver.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 #include <set>
-
-#include "optimize/search/nlopt_search.h"
 
 namespace perfora::optimize {
 namespace {
@@ -14,61 +12,65 @@ namespace {
 /// Gain is called real beyond this many standard errors.
 constexpr double significance = 2.0;
 
-SearchOptions options_of(const Study& study, const Arm& arm) {
-  SearchOptions options;
-  options.algorithm = study.keys.algorithm;
-  options.dimension = static_cast<int>(study.variables.size());
-  options.maxeval = arm.maxeval;
-  options.seed = arm.seed;
-  options.start = arm.start;
-  options.initial_step = study.keys.initial_step;
-  options.population = study.keys.population;
-  options.xtol = study.keys.xtol;
-  options.ftol = study.keys.ftol;
-  if (study.keys.stop_score > 0.0) options.stop_score = study.keys.stop_score;
-  return options;
+SearchStage stage_of(const Study& study) {
+  SearchStage stage;
+  stage.algorithm = study.keys.algorithm;
+  stage.initial_step = study.keys.initial_step;
+  stage.population = study.keys.population;
+  stage.xtol = study.keys.xtol;
+  stage.ftol = study.keys.ftol;
+  if (study.keys.stop_score > 0.0) stage.stop_score = study.keys.stop_score;
+  for (std::size_t k = 0; k < study.arms.size(); ++k) {
+    const Arm& arm = study.arms[k];
+    stage.tasks.push_back({static_cast<int>(k), arm.maxeval, arm.seed, arm.start});
+  }
+  return stage;
+}
+
+/// One search of the arm of `from`, which begins there.
+SearchStage second_stage_of(const Study& study, const Candidate& from) {
+  SearchStage stage = stage_of(study);
+  SearchTask task = stage.tasks[static_cast<std::size_t>(from.arm)];
+  task.maxeval = study.keys.refine_maxeval;
+  task.start = study.point_of(from.values);
+  stage.tasks = {task};
+  stage.algorithm = study.keys.refine;
+  stage.initial_step = study.keys.refine_step;
+  stage.population = 0;
+  return stage;
 }
 
 }  // namespace
 
-/// One call of plan(): the answers it may use and what it collects.
+/// One call of plan(): what is known and what it collects.
 struct Driver::View {
   const Study& study;
   CandidateBook& book;
-  const Answers& answers;
-  Plan plan;
-  std::set<std::string> asked;
+  const CandidateStore store;
+  Plan plan = {};
+  std::set<std::string> asked = {};
 
   /// The evaluations of a candidate for replicates [first, first + count); empty, with the missing ones added to
   /// `wanted`, when some are unknown.
   std::vector<const Evaluation*> evaluations(const Candidate& candidate, int first, int count) {
-    std::vector<const Evaluation*> known;
-    for (int replicate = first; replicate < first + count; ++replicate) {
+    auto known = store.evaluations(candidate, first, count);
+    bool complete = true;
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (known[k]) continue;
+      complete = false;
+      const int replicate = first + static_cast<int>(k);
       const std::string& key = book.key(candidate, replicate);
-      const auto found = answers.find(key);
-      if (found != answers.end())
-        known.push_back(&found->second);
-      else if (asked.insert(key).second)
-        plan.wanted.push_back({key, candidate.request(replicate), &candidate});
+      if (asked.insert(key).second) plan.wanted.push_back({key, candidate.request(replicate), &candidate});
     }
-    if (static_cast<int>(known.size()) < count) known.clear();
+    if (!complete) known.clear();
     return known;
   }
 
-  Visit visit(const Candidate& candidate) {
-    Visit visit{&candidate, false, 0.0, {}};
-    if (candidate.violation > 0.0) {
-      visit.answered = true;
-      visit.score = violation_score(candidate.violation);
-      return visit;
-    }
-    const auto known = evaluations(candidate, 0, study.keys.replicates);
-    if (known.empty()) return visit;
-    visit.answered = true;
-    visit.detail = score_of(study.target, known);
-    visit.score = visit.detail.value;
-    consider(visit);
-    return visit;
+  void take(const Visit& visit) {
+    if (visit.answered)
+      consider(visit);
+    else
+      evaluations(*visit.candidate, 0, study.keys.replicates);
   }
 
   /// Own incumbent: NLopt's is not always the best it saw. The first of equals stays; a start outside the search space
@@ -79,40 +81,14 @@ struct Driver::View {
     plan.best_score = visit.detail;
   }
 
-  /// What an algorithm that is given the constraints hears at a point that breaks one: nothing new, the best score so
-  /// far.
-  static double neutral(const Trace& trace) {
-    double best = largest_score;
-    for (const Visit& visit : trace.visits)
-      if (visit.candidate->violation <= 0.0) best = std::min(best, visit.score);
-    return best;
-  }
-
-  Trace run(int arm, const SearchOptions& asked_options, bool refine) {
-    Trace trace{arm, refine, {}, false, {}};
-    SearchOptions options = asked_options;
-    const bool constrained = takes_constraints(options.algorithm);
-    if (constrained) options.constraints = static_cast<int>(constraint_names(study.constraints).size());
-    const Objective objective = [&](std::span<const double> x) -> std::optional<double> {
-      const Candidate& candidate = book.at(arm, study.values_at(x));
-      Visit point = visit(candidate);
-      const double told = constrained && candidate.violation > 0.0 ? neutral(trace) : point.score;
-      trace.visits.push_back(point);
-      if (!point.answered) return std::nullopt;
-      return told;
-    };
-    const Constraints constraints = [&](std::span<const double> x) { return book.at(arm, study.values_at(x)).limits; };
-    const SearchEnd end = run_search(options, objective, constraints);
-    trace.finished = end.finished;
-    trace.reason = end.reason;
-    return trace;
-  }
-
-  bool run_arms() {
+  /// True: every search of the stage has ended.
+  bool run(const Searcher& searcher, const SearchStage& stage, bool refine) {
     bool finished = true;
-    for (std::size_t k = 0; k < study.arms.size(); ++k) {
-      plan.traces.push_back(run(static_cast<int>(k), options_of(study, study.arms[k]), false));
-      finished = finished && plan.traces.back().finished;
+    for (Trace& trace : searcher.ask(stage, store)) {
+      trace.refine = refine;
+      for (const Visit& visit : trace.visits) take(visit);
+      finished = finished && trace.finished;
+      plan.traces.push_back(std::move(trace));
     }
     return finished;
   }
@@ -120,15 +96,7 @@ struct Driver::View {
   /// The second stage begins where the first has ended, so its arms must all be done.
   bool run_refine() {
     if (study.keys.refine.empty() || !plan.best || plan.best->arm < 0) return true;
-    const Candidate from = *plan.best;
-    SearchOptions options = options_of(study, study.arms[static_cast<std::size_t>(from.arm)]);
-    options.algorithm = study.keys.refine;
-    options.maxeval = study.keys.refine_maxeval;
-    options.start = study.point_of(from.values);
-    options.initial_step = study.keys.refine_step;
-    options.population = 0;
-    plan.traces.push_back(run(from.arm, options, true));
-    return plan.traces.back().finished;
+    return run(*study.refiner, second_stage_of(study, *plan.best), true);
   }
 
   /// Scores of single simulations: the spread term needs more than one.
@@ -184,9 +152,10 @@ struct Driver::View {
 };
 
 Plan Driver::plan(const Answers& answers) {
-  View view{study_, book_, answers, {}, {}};
-  view.plan.start = view.visit(book_.start());
-  const bool arms_done = view.run_arms();
+  View view{study_, book_, CandidateStore(study_, book_, answers)};
+  view.plan.start = view.store.visit(book_.start());
+  view.take(view.plan.start);
+  const bool arms_done = view.run(*study_.searcher, stage_of(study_), false);
   if (arms_done && view.plan.start.answered && view.run_refine() && view.run_finals()) {
     view.plan.finished = true;
     view.plan.reason = view.end_reason();

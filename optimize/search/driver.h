@@ -1,16 +1,11 @@
-// What is here: the search as a pure function of a study and the answers known so far: what to ask next, or that it has
-// ended, and with what. What is not: asking (executor.h), remembering (study_run.h), NLopt (nlopt_search.h).
+// What is here: a study as a pure function of the answers known so far: what to ask next, or that it has ended, and
+// with what. What is not: asking (executor.h), remembering (study_run.h), the algorithms (searcher.h).
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "optimize/campaign/evaluation_queue.h"
-#include "optimize/search/candidate.h"
-#include "optimize/search/objective.h"
-#include "optimize/search/study.h"
+#include "optimize/search/searcher.h"
 
 namespace perfora::optimize {
 
@@ -19,23 +14,6 @@ struct Wanted {
   std::string key;
   Request request;
   const Candidate* candidate = nullptr;
-};
-
-/// One point that a search asked for.
-struct Visit {
-  const Candidate* candidate = nullptr;
-  bool answered = false;  ///< false: waits for its simulations
-  double score = 0.0;     ///< finite; with the penalties of objective.h and constraints.h
-  Score detail;           ///< of the simulations, where there were any
-};
-
-/// One search as far as the answers carry it.
-struct Trace {
-  int arm = 0;
-  bool refine = false;  ///< the second stage
-  std::vector<Visit> visits;
-  bool finished = false;
-  std::string reason;
 };
 
 /// Best and start design on fresh seeds, pair by pair.
@@ -61,9 +39,9 @@ struct Plan {
   std::string reason;  ///< why it finished
 };
 
-/// The search. plan() is a pure function of the study and the answers: it runs NLopt from the start, answers known
-/// points and stops each arm at its first unknown one. Which answers arrive first, how many workers there are, a crash
-/// and a resume change nothing in what it asks in the end.
+/// The search of a study: the start design, the arms, the second stage, the comparison on fresh seeds. plan() is a pure
+/// function of the study and the answers, as its searchers are. Which answers arrive first, how many workers there are,
+/// a crash and a resume change nothing in what it asks in the end.
 class Driver {
  public:
   explicit Driver(const Study& study) : study_(study), book_(study) {}

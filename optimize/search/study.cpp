@@ -9,7 +9,7 @@
 #include <set>
 
 #include "io/text.h"
-#include "optimize/search/nlopt_search.h"
+#include "optimize/search/searcher.h"
 #include "optimize/search/study_arms.h"
 
 namespace perfora::optimize {
@@ -61,12 +61,13 @@ bool belongs_to_study(const std::string& override_text) {
 /// Everything that is needed while a study file is read.
 struct Reader {
   std::filesystem::path path;
+  const Searchers& searchers;
   Study study;
   io::Schema schema;
   std::vector<io::Entry> variables, arms;
   std::vector<io::Entry> fixed;  ///< [set]: keys of the design that differ from its file
 
-  explicit Reader(const std::filesystem::path& file) : path(file) {
+  Reader(const std::filesystem::path& file, const Searchers& known) : path(file), searchers(known) {
     describe(schema, study.keys);
     describe(schema, study.target);
     describe(schema, study.constraints);
@@ -159,6 +160,7 @@ struct Reader {
     solver.measures.plateau_start = window[0];
     solver.measures.plateau_end = window[1];
     if (study.keys.until > 0.0) solver.loading.until = study.keys.until;
+    study.fidelities = {{"", changes_without_output(), solver.loading.until}};
     if (solver.loading.until < window[1])
       throw io::InputError(origin(study.keys.until > 0.0 ? "study.until" : "target.window"),
                            fmt::format("the window ends at strain {:g}, the runs end at {:g} before it", window[1],
@@ -167,26 +169,25 @@ struct Reader {
   }
 
   void check_algorithms() {
-    std::string problem;
-    const std::string asked = study.keys.algorithm;
-    study.keys.algorithm = canonical_algorithm(asked, problem);
-    if (study.keys.algorithm.empty()) refuse_algorithm("study.algorithm", asked, problem, "");
+    const ChosenSearcher first = choose_searcher(searchers, study.keys.algorithm);
+    if (!first.searcher) refuse_algorithm("study.algorithm", study.keys.algorithm, first.problem, false);
+    study.searcher = first.searcher;
+    study.keys.algorithm = first.algorithm;
     if (study.keys.refine.empty()) return;
-    const std::string local = study.keys.refine;
-    study.keys.refine = canonical_algorithm(local, problem);
-    if (!study.keys.refine.empty() && study.keys.refine.rfind("LN_", 0) != 0)
-      problem = fmt::format("\"{}\" is not a local algorithm", local), study.keys.refine.clear();
-    if (study.keys.refine.empty()) refuse_algorithm("study.refine", local, problem, "LN_");
+    ChosenSearcher local = choose_searcher(searchers, study.keys.refine);
+    if (local.searcher && !local.searcher->is_local(local.algorithm))
+      local = {nullptr, "", fmt::format("\"{}\" is not a local algorithm", study.keys.refine)};
+    if (!local.searcher) refuse_algorithm("study.refine", study.keys.refine, local.problem, true);
+    study.refiner = local.searcher;
+    study.keys.refine = local.algorithm;
     if (study.keys.refine_maxeval < 1)
       throw io::InputError(origin("study.refine_maxeval"), "the second stage has no candidates", "a whole number >= 1",
                            "add refine_maxeval = 8, or leave refine out");
   }
 
   [[noreturn]] void refuse_algorithm(const std::string& key, const std::string& asked, const std::string& problem,
-                                     const std::string& prefix) const {
-    std::vector<std::string> allowed;
-    for (const auto& name : derivative_free_algorithms())
-      if (name.rfind(prefix, 0) == 0) allowed.push_back(name);
+                                     bool local) const {
+    const std::vector<std::string> allowed = algorithm_names(searchers, local);
     const std::string nearest = io::nearest_name(asked, allowed);
     throw io::InputError(origin(key), problem, fmt::format("{}", fmt::join(allowed, ", ")),
                          nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
@@ -194,20 +195,13 @@ struct Reader {
 
   void check_dimension() const {
     const int n = static_cast<int>(study.variables.size());
-    for (const auto& [key, name] :
-         {std::pair{"study.algorithm", study.keys.algorithm}, {"study.refine", study.keys.refine}}) {
-      if (name.empty()) continue;
-      if (n < smallest_dimension(name))
-        throw io::InputError(
-            origin(key),
-            fmt::format("{} needs at least {} variables, the study has {}", name, smallest_dimension(name), n), "",
-            "take another algorithm, such as LN_BOBYQA or LN_SBPLX");
-      if (n > largest_dimension(name))
-        throw io::InputError(
-            origin(key),
-            fmt::format("{} takes at most {} variables, the study has {}", name, largest_dimension(name), n), "",
-            "take another algorithm, such as GN_DIRECT_L");
-    }
+    const auto check = [&](const std::string& key, const Searcher* searcher, const std::string& algorithm) {
+      if (!searcher) return;
+      if (const auto refusal = searcher->refuse(algorithm, n))
+        throw io::InputError(origin(key), refusal->problem, "", refusal->remedy);
+    };
+    check("study.algorithm", study.searcher.get(), study.keys.algorithm);
+    check("study.refine", study.refiner.get(), study.keys.refine);
   }
 
   void warn() {
@@ -215,17 +209,8 @@ struct Reader {
     int fewest = study.keys.maxeval;
     for (const Arm& arm : study.arms) fewest = std::min(fewest, arm.maxeval);
     const int n = static_cast<int>(study.variables.size());
-    const int population = first_population(study.keys.algorithm, n, study.keys.population);
-    if (population >= fewest)
-      warnings.push_back(fmt::format(
-          "{} spends its first {} points on a population and has only {} an arm: it will only sample; raise "
-          "maxeval or set population",
-          study.keys.algorithm, population, fewest));
-    if (fits_models(study.keys.algorithm) && !takes_constraints(study.keys.algorithm))
-      warnings.push_back(
-          fmt::format("{} fits smooth models, which candidates that fail or break a constraint upset; LN_SBPLX and "
-                      "LN_COBYLA bear them better",
-                      study.keys.algorithm));
+    for (std::string& told : study.searcher->warnings(study.keys.algorithm, n, study.keys.population, fewest))
+      warnings.push_back(std::move(told));
     if (study.keys.replicates == 1)
       warnings.push_back(
           "one replicate a candidate: the score holds the luck of one packing; final_replicates tells how much of the "
@@ -260,10 +245,9 @@ std::vector<double> Study::point_of(std::span<const double> values) const {
 }
 
 DesignFile Study::design_at(const Arm* arm, std::span<const double> values) const {
-  DesignFile made;
-  made.design() = start->design();
+  DesignFile made(start->design());
   if (arm)
-    for (const ArmChoice& choice : arm->choices)
+    for (const DesignChange& choice : arm->choices)
       made.schema().set(choice.key, choice.value, {file.string(), choice.value.line, choice.key});
   for (std::size_t k = 0; k < values.size(); ++k)
     made.schema().set_number(variables[k].key, values[k], {file.string(), 0, variables[k].key});
@@ -312,7 +296,12 @@ std::set<std::string> Study::at_default() const {
 }
 
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  Reader reader(path);
+  return read_study(path, overrides, built_in_searchers());
+}
+
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const Searchers& searchers) {
+  Reader reader(path, searchers);
   reader.read(overrides);
   ArmEntries entries;
   for (const io::Entry& entry : reader.variables)

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "optimize/evaluate/design.h"
+#include "optimize/evaluate/fidelity.h"
 #include "optimize/search/constraints.h"
 #include "optimize/search/objective.h"
 
 namespace perfora::optimize {
+
+class Searcher;
 
 /// [study]
 struct StudyKeys {
@@ -45,19 +47,14 @@ struct Variable {
   io::Dimension dimension = io::Dimension::none;
 };
 
-/// One fixed choice of an arm, such as layout.rows = 3.
-struct ArmChoice {
-  std::string key;
-  io::Value value;
-};
-
 /// One sequential search: family x rows x columns x ... x start.
 struct Arm {
-  std::string name;  ///< "family=square rows=2 columns=3"; "all" when there is only one
-  std::vector<ArmChoice> choices;
-  std::vector<double> start;  ///< first point of a local algorithm, each coordinate in [0, 1]
+  std::string name;                   ///< "family=square rows=2 columns=3"; "all" when there is only one
+  std::vector<DesignChange> choices;  ///< fixed, such as layout.rows = 3
+  std::vector<double> start;          ///< first point of a local algorithm, each coordinate in [0, 1]
   int maxeval = 0;
-  std::uint32_t seed = 1;  ///< of NLopt; from the search seed and the arm's name, so that arms do not change each other
+  std::uint32_t seed =
+      1;  ///< of its search; from the search seed and the arm's name, so that arms do not change each other
 };
 
 /// A study, read and checked. Copies share the design.
@@ -68,7 +65,10 @@ struct Study {
   ConstraintKeys constraints;
   std::vector<Variable> variables;
   std::vector<Arm> arms;
-  std::shared_ptr<const DesignFile> start;  ///< the design it starts from, window and strain of the study set
+  std::shared_ptr<const Searcher> searcher;  ///< has keys.algorithm
+  std::shared_ptr<const Searcher> refiner;   ///< has keys.refine; nullptr without a second stage
+  std::shared_ptr<const DesignFile> start;   ///< the design it starts from, window and strain of the study set
+  std::vector<Fidelity> fidelities;  ///< what candidates can be evaluated at; the first is what they are scored on
   std::vector<std::string> warnings;
 
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",
@@ -90,6 +90,9 @@ struct Study {
 /// Reads and checks a study file and the design it names. `overrides` are "section.key=value" texts; those of [study],
 /// [target] and [constraints] go to the study, all others to the design. Throws io::InputError.
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// The same with these searchers behind study.algorithm and study.refine.
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const std::vector<std::shared_ptr<const Searcher>>& searchers);
 
 /// Keys of a study file in one printed reference (Markdown).
 std::string study_reference();

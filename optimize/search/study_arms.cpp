@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "io/journal.h"
-#include "optimize/search/nlopt_search.h"
 
 namespace perfora::optimize {
 namespace {
@@ -101,8 +100,7 @@ Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) 
 
 Axis list_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
   Axis axis{key.full_name(), {}};
-  DesignFile scratch;
-  scratch.design() = study.start->design();
+  DesignFile scratch(study.start->design());
   for (const io::Value& value :
        list_of(study, "arms", entry, "a list of values, such as [2, 3] or [\"square\", \"staggered\"]")) {
     if (key.type == io::KeyType::real)
@@ -138,7 +136,7 @@ std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
 
 std::string arm_name(const Arm& arm, int start, int starts) {
   std::string name;
-  for (const ArmChoice& choice : arm.choices)
+  for (const DesignChange& choice : arm.choices)
     name += fmt::format("{}{}={}", name.empty() ? "" : " ", choice.key.substr(choice.key.find('.') + 1),
                         value_name(choice.value));
   if (starts > 1) name += fmt::format("{}start={}", name.empty() ? "" : " ", start + 1);

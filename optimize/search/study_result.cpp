@@ -7,7 +7,7 @@
 #include "io/csv.h"
 #include "io/journal.h"
 #include "io/text.h"
-#include "optimize/search/nlopt_search.h"
+#include "optimize/search/searcher.h"
 
 namespace perfora::optimize {
 namespace {
@@ -37,7 +37,7 @@ json value_json(const io::Value& value) {
 json design_values(const Study& study, const Candidate& candidate) {
   json values = json::object();
   if (candidate.arm >= 0)
-    for (const ArmChoice& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
+    for (const DesignChange& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
       values[choice.key] = value_json(choice.value);
   for (std::size_t k = 0; k < candidate.values.size(); ++k) values[study.variables[k].key] = candidate.values[k];
   return values;
@@ -138,13 +138,14 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
 json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
+  const Searcher::Library library = study.searcher->library();
   json record = {{"schema", "perfora.optimize/1"},
                  {"status", results::status_name(run.status())},
                  {"reason", run.reason()},
                  {"seeds", to_json(study.start->design().seeds.effective(0))},
                  {"results_version", results_version},
                  {"algorithm", study.keys.algorithm},
-                 {"nlopt_version", nlopt_version_text()},
+                 {library.name + "_version", library.version},
                  {"target", study.target.plateau_stress},
                  {"plateau_window", study.target.window},
                  {"until", study.until()},

@@ -97,8 +97,8 @@ std::vector<const Evaluation*> StudyRun::known(const Candidate& candidate, int f
   std::vector<const Evaluation*> found;
   if (candidate.violation > 0.0) return found;
   for (int replicate = first; replicate < first + count; ++replicate) {
-    const auto answer = answers().find(book().key(candidate, replicate));
-    if (answer != answers().end()) found.push_back(&answer->second);
+    const Evaluation* answer = answer_for(candidate.request(replicate), book().key(candidate, replicate), answers());
+    if (answer) found.push_back(answer);
   }
   return found;
 }

@@ -23,7 +23,7 @@ ChildOptions child_options(const StudyFolder& folder, int workers) {
 }
 
 Request request_of(int replicate) {
-  return {"title = \"x\"", replicate, 0.4};
+  return make_request(DesignFile(), replicate, 0.4);
 }
 
 std::map<std::string, Answer> ask(Executor& executor, const std::vector<int>& replicates) {

@@ -21,14 +21,11 @@ std::string sweep_text(const std::string& tables, const std::string& keys = "rep
 
 /// Plateau = 1e5 (horizon + replicate) + 1e4 zeta_max; fails at a horizon of 2.25.
 Evaluation formula(const Request& request) {
-  const auto entries = io::parse_toml(request.design_toml, "request");
-  const double horizon = number_in(entries, "material.horizon");
+  const solver::MaterialOptions& material = request.design->solver.material;
+  const double horizon = material.horizon;
   if (horizon == 2.25) return failed_evaluation(request, "unstable step");
-  Evaluation evaluation;
-  evaluation.status = results::RunStatus::completed;
-  evaluation.replicate = request.replicate;
-  evaluation.summary.plateau_stress =
-      1e5 * (horizon + request.replicate) + 1e4 * number_in(entries, "material.rupture_delay");
+  Evaluation evaluation = completed(request);
+  evaluation.summary.plateau_stress = 1e5 * (horizon + request.replicate) + 1e4 * material.rupture_delay;
   evaluation.summary.first_peak_stress = std::nan("");
   evaluation.curve.strain_yy = {0.001, 0.002};
   evaluation.curve.stress_yy = {1.0, 2.0};
@@ -102,12 +99,12 @@ TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
   EXPECT_EQ(made.cases[7].label, "diameter 15 mm");
   EXPECT_EQ(made.cases[7].group, "layout.diameter");
   EXPECT_EQ(made.runs(), 2 * 8);  // a diameter of 16 mm is the design itself
-  const DesignFile stiff = DesignFile::from_toml(made.cases[6].design_toml, "case");
-  EXPECT_EQ(stiff.design().solver.material.normal_stiffness, 2e7);
-  EXPECT_EQ(stiff.design().solver.material.tangential_stiffness, 8e6);
-  EXPECT_EQ(stiff.design().solver.material.horizon, 3.0);
-  EXPECT_EQ(stiff.design().solver.material.rupture_delay, 1.2);
-  EXPECT_EQ(DesignFile::from_toml(made.cases[7].design_toml, "case").design().layout.diameter, 0.015);
+  const solver::MaterialOptions& stiff = made.cases[6].design->solver.material;
+  EXPECT_EQ(stiff.normal_stiffness, 2e7);
+  EXPECT_EQ(stiff.tangential_stiffness, 8e6);
+  EXPECT_EQ(stiff.horizon, 3.0);
+  EXPECT_EQ(stiff.rupture_delay, 1.2);
+  EXPECT_EQ(made.cases[7].design->layout.diameter, 0.015);
   EXPECT_EQ(made.columns, (std::vector<std::string>{"material.normal_stiffness", "material.tangential_stiffness",
                                                     "material.horizon", "layout.diameter"}));
 }
@@ -127,9 +124,8 @@ TEST_F(SweepTest, TheCommandLineHasTheLastWord) {
       read_sweep(path, {"sweep.replicates=5", "each.material.horizon=[2.5]", "material.rupture_delay=1.3"});
   EXPECT_EQ(made.keys.replicates, 5);
   ASSERT_EQ(made.cases.size(), 1U);
-  const DesignFile design = DesignFile::from_toml(made.cases[0].design_toml, "case");
-  EXPECT_EQ(design.design().solver.material.horizon, 2.5);
-  EXPECT_EQ(design.design().solver.material.rupture_delay, 1.3);
+  EXPECT_EQ(made.cases[0].design->solver.material.horizon, 2.5);
+  EXPECT_EQ(made.cases[0].design->solver.material.rupture_delay, 1.3);
 }
 
 TEST_F(SweepTest, SaysWhatIsWrong) {
@@ -222,6 +218,23 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
   ASSERT_EQ(runs.rows(), 12U);
   for (std::size_t k = 0; k < runs.rows(); ++k)
     EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
+}
+
+// Strain and window are no part of a run's path: such cases have one key, and each its own answer.
+TEST_F(SweepTest, CasesThatDifferInStrainOrWindowAreAnsweredEach) {
+  const std::string text =
+      sweep_text("[each]\nloading.until = [0.45, 0.5]\nmeasures.plateau_end = [0.3]\n", "replicates = 2\nbase = true");
+  for (const bool resume : {false, true}) {
+    SweepRun run(sweep(text), options("out", resume));
+    run.run();
+    EXPECT_EQ(asked, 8) << "resumed: nothing more";
+    EXPECT_EQ(run.reason(), "8 of 8 runs completed");
+    const auto& cases = run.sweep().cases;
+    EXPECT_EQ(cases[1].request(0).key(), cases[3].request(0).key());
+    EXPECT_EQ(run.known(cases[1], 1)->summary.final_strain, 0.45);
+    EXPECT_EQ(run.known(cases[2], 1)->summary.final_strain, 0.5);
+    EXPECT_EQ(run.known(cases[3], 1)->summary.plateau_end, 0.3);
+  }
 }
 
 // The journal of a program that knew a key less (under other names of its requests) and gave the same results is gone
@@ -355,9 +368,7 @@ TEST_F(SweepTest, RunFilesStayOnlyWhereTheyAreWanted) {
     run.run();
     EXPECT_EQ(run.status(), results::RunStatus::stopped);
     const SweepCase& one = run.sweep().cases[0];
-    const auto file = [&](int replicate) {
-      return writing.folder / EvaluationQueue::run_file(one.request(replicate).key());
-    };
+    const auto file = [&](int replicate) { return writing.folder / EvaluationQueue::run_file(one.request(replicate)); };
     EXPECT_EQ(std::filesystem::exists(file(0)), keep);
     EXPECT_TRUE(std::filesystem::exists(file(1)));
     EXPECT_EQ(runs_csv(run).find("runs/") != std::string::npos, keep);

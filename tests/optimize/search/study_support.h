@@ -53,14 +53,16 @@ inline std::string study_text(const std::string& study_keys, const std::string& 
          (constraints.empty() ? "" : "[constraints]\n" + constraints + "\n");
 }
 
-inline double number_in(const std::vector<io::Entry>& entries, const std::string& key) {
-  for (const io::Entry& entry : entries)
-    if (entry.key == key) {
-      if (const auto* real = std::get_if<double>(&entry.value.data)) return *real;
-      if (const auto* whole = std::get_if<std::int64_t>(&entry.value.data)) return static_cast<double>(*whole);
-    }
-  ADD_FAILURE() << "no number " << key;
-  return 0.0;
+/// A run that reached the strain a request asks for, measured over its window.
+inline Evaluation completed(const Request& request) {
+  Evaluation evaluation;
+  evaluation.status = results::RunStatus::completed;
+  evaluation.reason = "reached strain";
+  evaluation.replicate = request.replicate;
+  evaluation.summary.final_strain = request.strain();
+  evaluation.summary.plateau_start = request.design->solver.measures.plateau_start;
+  evaluation.summary.plateau_end = request.design->solver.measures.plateau_end;
+  return evaluation;
 }
 
 inline constexpr double best_diameter = 0.0175, best_jitter = 0.0004, fake_target = 0.2e6;
@@ -73,13 +75,9 @@ inline double fake_distance(double diameter, double jitter) {
 /// A plateau that misses the target by sqrt(fake_distance) + 0.3 x (number of holes other than 4), relative; replicates
 /// scatter by 1 %.
 inline Evaluation fake_evaluation(const Request& request) {
-  const auto entries = io::parse_toml(request.design_toml, "request");
-  const double diameter = number_in(entries, "layout.diameter"), jitter = number_in(entries, "layout.jitter");
-  const double holes = number_in(entries, "layout.rows") * number_in(entries, "layout.columns");
-  Evaluation evaluation;
-  evaluation.status = results::RunStatus::completed;
-  evaluation.reason = "reached strain";
-  evaluation.replicate = request.replicate;
+  const geometry::LayoutOptions& layout = request.design->layout;
+  const double diameter = layout.diameter, jitter = layout.jitter, holes = layout.rows * layout.columns;
+  Evaluation evaluation = completed(request);
   const double off = std::sqrt(fake_distance(diameter, jitter)) + 0.3 * std::abs(holes - 4.0);
   evaluation.summary.plateau_stress =
       fake_target * (1.0 + off) * (1.0 + 0.01 * std::sin(1.0 + 2.0 * request.replicate));
@@ -94,7 +92,7 @@ inline Evaluation fake_evaluation(const Request& request) {
 
 /// The same with a region of diameters in which every run fails: NaN and a status, as a solver gives it.
 inline Evaluation fake_with_failures(const Request& request) {
-  const double diameter = number_in(io::parse_toml(request.design_toml, "request"), "layout.diameter");
+  const double diameter = request.design->layout.diameter;
   if (diameter > 0.0185 && diameter < 0.0200) return failed_evaluation(request, "unstable step");
   return fake_evaluation(request);
 }

@@ -42,7 +42,7 @@ Plan search(Driver& driver, Answers& answers, const Evaluate& evaluate, std::siz
     EXPECT_FALSE(plan.wanted.empty());
     std::shuffle(plan.wanted.begin(), plan.wanted.end(), random);
     for (std::size_t k = 0; k < std::min(at_once, plan.wanted.size()); ++k)
-      answers[plan.wanted[k].key] = evaluate(plan.wanted[k].request);
+      answers.add(plan.wanted[k].key, evaluate(plan.wanted[k].request));
   }
   ADD_FAILURE() << "the search did not end";
   return {};
@@ -143,10 +143,8 @@ TEST_F(DriverTest, AsksForAllArmsAndReplicatesAtOnce) {
 TEST_F(DriverTest, GivesEveryCandidateTheSameSeeds) {
   const Study one = study("maxeval = 6\nreplicates = 2");
   std::set<int> replicates;
-  std::set<std::string> designs;
   const Searched searched(one, [&](const Request& request) {
     replicates.insert(request.replicate);
-    designs.insert(request.design_toml);
     EXPECT_DOUBLE_EQ(request.until, 0.45);
     return fake_evaluation(request);
   });
@@ -171,9 +169,8 @@ TEST_F(DriverTest, SimulatesNothingThatBreaksAConstraint) {
     const Study walls = study(std::string("maxeval = 30\nfinal_replicates = 0\nalgorithm = \"") + algorithm + "\"", "",
                               "thinnest_wall = \"8 mm\"");
     const Searched searched(walls, [](const Request& request) {
-      const auto entries = io::parse_toml(request.design_toml, "request");
       // At no jitter the wall is 25 mm - d; jitter only thins it.
-      EXPECT_LE(number_in(entries, "layout.diameter"), 0.017 + 1e-9);
+      EXPECT_LE(request.design->layout.diameter, 0.017 + 1e-9);
       return fake_evaluation(request);
     });
     const Plan& plan = searched.plan;
@@ -246,8 +243,7 @@ TEST_F(DriverTest, LeavesAStartOutsideTheBoundsOutOfTheSearch) {
   const Searched searched(one, [](const Request& request) {
     Evaluation evaluation = fake_evaluation(request);
     // The start would be perfect, but it is not a candidate.
-    if (number_in(io::parse_toml(request.design_toml, "request"), "layout.diameter") == 0.010)
-      evaluation.summary.plateau_stress = fake_target;
+    if (request.design->layout.diameter == 0.010) evaluation.summary.plateau_stress = fake_target;
     return evaluation;
   });
   const Plan& plan = searched.plan;

@@ -1,0 +1,40 @@
+// What is here: evaluations that are known, and which of them answers a request. What is not: where they are kept
+// (campaign/evaluation_queue.h), scores.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "optimize/evaluate/request.h"
+
+namespace perfora::optimize {
+
+/// Evaluations by the key of their request. A key may have several, of other strains and windows. Pointers to them stay
+/// valid until one of the same key, strain and window replaces it.
+class Answers {
+ public:
+  using Stored = std::multimap<std::string, Evaluation>;
+  /// Keeps an evaluation; one of the same key, strain and window before it is dropped.
+  void add(const std::string& key, Evaluation evaluation);
+  std::size_t size() const { return stored_.size(); }
+  bool empty() const { return stored_.empty(); }
+  Stored::const_iterator begin() const { return stored_.begin(); }
+  Stored::const_iterator end() const { return stored_.end(); }
+  std::pair<Stored::const_iterator, Stored::const_iterator> of(const std::string& key) const {
+    return stored_.equal_range(key);
+  }
+
+ private:
+  Stored stored_;
+};
+
+/// Whether an evaluation of the request's key is what the request asks for: it reached the strain, no more than a row
+/// beyond it, and its plateau was measured over the design's window. A failed one is, unless it failed beyond the
+/// strain that is asked for.
+bool is_answer(const Evaluation& evaluation, const Request& request);
+
+/// The evaluation that answers `request`, whose key is `key`; nullptr where none does, so that it has to be evaluated.
+const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& answers);
+
+}  // namespace perfora::optimize

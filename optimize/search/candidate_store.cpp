@@ -1,0 +1,38 @@
+// What is here: candidates looked up with their scores. What is not: the score itself (objective.cpp).
+#include "optimize/search/candidate_store.h"
+
+#include <algorithm>
+
+namespace perfora::optimize {
+
+int CandidateStore::constraints() const {
+  return static_cast<int>(constraint_names(study_.constraints).size());
+}
+
+const Candidate& CandidateStore::at(int arm, std::span<const double> x) const {
+  return book_.at(arm, study_.values_at(x));
+}
+
+Visit CandidateStore::visit(const Candidate& candidate) const {
+  Visit visit{&candidate, false, 0.0, {}};
+  if (candidate.violation > 0.0) {
+    visit.answered = true;
+    visit.score = violation_score(candidate.violation);
+    return visit;
+  }
+  const auto known = evaluations(candidate, 0, study_.keys.replicates);
+  if (std::find(known.begin(), known.end(), nullptr) != known.end()) return visit;
+  visit.answered = true;
+  visit.detail = score_of(study_.target, known);
+  visit.score = visit.detail.value;
+  return visit;
+}
+
+std::vector<const Evaluation*> CandidateStore::evaluations(const Candidate& candidate, int first, int count) const {
+  std::vector<const Evaluation*> known;
+  for (int replicate = first; replicate < first + count; ++replicate)
+    known.push_back(answer_for(candidate.request(replicate), book_.key(candidate, replicate), answers_));
+  return known;
+}
+
+}  // namespace perfora::optimize
