@@ -27,7 +27,7 @@ struct Unit {
   const char* name;
 };
 
-/// By the words of docs/formats.md: SI in the file, what people read here.
+/// By the words of docs/user/formats.md: SI in the file, what people read here.
 Unit unit_of(std::string_view key) {
   if (has(key, "ratio") || has(key, "per_") || has(key, "coordination") || ends(key, "_version") || ends(key, "_pair"))
     return {1.0, ""};

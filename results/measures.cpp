@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
-constexpr double smoothing_width = 0.005;     // docs/theory.md: the 0.5 %-smoothed stress
+constexpr double smoothing_width = 0.005;     // docs/user/theory.md: the 0.5 %-smoothed stress
 constexpr double rising_share = 0.9;          // "only rises": never falls below this share of an earlier stress
 constexpr double recovery_share = 0.5;        // of the first peak
 constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
