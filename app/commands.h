@@ -20,7 +20,7 @@ void add_show(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
 /// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
 void add_worker(CLI::App& program, int& exit_code);
-/// Hidden: the keys of design, study, sweep and calibration files as Markdown (docs/design-files.md).
+/// Hidden: the keys of design, study, sweep and calibration files as Markdown (docs/user/design-files.md).
 void add_reference(CLI::App& program, int& exit_code);
 
 }  // namespace perfora::app

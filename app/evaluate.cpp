@@ -57,7 +57,7 @@ void say_how_it_ended(results::RunStatus status, const std::string& reason, cons
   if (status == results::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
-/// What the run itself says against its numbers (docs/theory.md, "Ledger").
+/// What the run itself says against its numbers (docs/user/theory.md, "Ledger").
 std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluation,
                                            const solver::LoadingOptions& loading) {
   constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;

@@ -1,5 +1,5 @@
 // What is here: `perfora reference` (hidden): every key of design, study, sweep and calibration files as Markdown, from
-// the table of keys that reads them. What is not: the text around it (docs/design-files.md).
+// the table of keys that reads them. What is not: the text around it (docs/user/design-files.md).
 #include "app/commands.h"
 #include "app/common.h"
 #include "optimize/campaign/sweep.h"

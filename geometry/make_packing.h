@@ -32,7 +32,7 @@ inline constexpr int packing_algorithm_version = 2;
 
 PackingKey packing_key(const PackingOptions& options, double width, double height, std::uint64_t seed);
 
-/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (docs/theory.md, "Block, perforations, packing").
+/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (docs/user/theory.md, "Block, perforations, packing").
 /// Throws io::InputError when the mean cannot be reached.
 double size_law_exponent(double mean_diameter, double maximum_diameter, double size_ratio);
 
@@ -50,7 +50,7 @@ Packing import_packing(const std::filesystem::path& csv, double width, double he
 /// Removes the discs that a perforation takes away and sorts the rest along a Hilbert curve (neighbours in space become neighbours in memory).
 Packing clip_packing(const Packing& packing, const PerforationLayout& layout, ClipRule rule);
 
-/// Wall measured between the clipped discs (docs/theory.md: wider than the exact wall): the thinnest wall between the voids, where the void of a hole is
+/// Wall measured between the clipped discs (docs/user/theory.md: wider than the exact wall): the thinnest wall between the voids, where the void of a hole is
 /// the largest circle about its centre that no disc enters. Infinite without holes.
 double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout& layout);
 

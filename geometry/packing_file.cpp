@@ -1,4 +1,4 @@
-// What is here: packings and layouts in HDF5 files as docs/formats.md says, and the comparison of keys.
+// What is here: packings and layouts in HDF5 files as docs/user/formats.md says, and the comparison of keys.
 // What is not: HDF5 itself (io/hdf5.h).
 #include "geometry/packing_file.h"
 

@@ -10,7 +10,7 @@
 
 namespace perfora::geometry {
 
-/// Writes the three groups into an open file (docs/formats.md); used by P.h5 and R.h5 alike.
+/// Writes the three groups into an open file (docs/user/formats.md); used by P.h5 and R.h5 alike.
 void write_packing(io::Hdf5Writer& file, const std::string& group, const Packing& packing);
 void write_layout(io::Hdf5Writer& file, const std::string& group, const PerforationLayout& layout);
 Packing read_packing(const io::Hdf5Reader& file, const std::string& group);

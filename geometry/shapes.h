@@ -1,5 +1,5 @@
 // What is here: the shapes of a perforation and the questions a shape answers. A new shape is one more struct here, one
-// more entry in Shape, its definitions in shapes.cpp, its reader and writer (docs/how-to-add-a-shape.md).
+// more entry in Shape, its definitions in shapes.cpp, its reader and writer (docs/developer/how-to-add-a-shape.md).
 // What is not: a hole at its place, which the other rooms ask (perforation.h).
 #pragma once
 

@@ -1,5 +1,6 @@
-// What is here: the size law of the discs, number density p(d) ~ d^-q on [d_max/ratio, d_max] (docs/theory.md, "Block, perforations, packing"):
-// moments and samples. What is not: the search for q (size_law_exponent of make_packing.h), the places of the discs.
+// What is here: the size law of the discs, number density p(d) ~ d^-q on [d_max/ratio, d_max] (docs/user/theory.md,
+// "Block, perforations, packing"): moments and samples. What is not: the search for q (size_law_exponent of
+// make_packing.h), the places of the discs.
 #pragma once
 
 #include <cstdint>

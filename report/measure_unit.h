@@ -10,7 +10,8 @@ struct MeasureUnit {
   double scale = 1.0;
   std::string label;
 };
-/// By the end of the name: stresses in kPa, strains in per cent.
+/// By the dimension in the table of measures: stresses in kPa, ratios in per cent, ... A plain number where it has
+/// none.
 MeasureUnit measure_unit(const std::string& measure);
 
 }  // namespace perfora::report

@@ -20,7 +20,7 @@ struct History {
   /// Normal force over the block's nominal edge; empty without platens or side walls.
   std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
 
-  /// Columns with their names and SI units, in file order (docs/formats.md).
+  /// Columns with their names and SI units, in file order (docs/user/formats.md).
   struct Column {
     const char* name;
     const char* units;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "results/formats.h"
+#include "results/measure_table.h"
 #include "results/provenance.h"
 
 namespace perfora::results {
@@ -44,94 +45,52 @@ RunStatus status_from(const std::string& name) {
   throw std::invalid_argument("unknown status \"" + name + "\"");
 }
 
-struct SummaryNumber {
-  const char* name;
-  double Summary::*value;
-};
-/// Real results; null where not reached.
-constexpr SummaryNumber summary_numbers[] = {
-    {"time_step", &Summary::time_step},
-    {"rate", &Summary::rate},
-    {"smallest_rate", &Summary::smallest_rate},
-    {"largest_rate", &Summary::largest_rate},
-    {"final_strain", &Summary::final_strain},
-    {"first_peak_stress", &Summary::first_peak_stress},
-    {"first_peak_strain", &Summary::first_peak_strain},
-    {"stress_drop_ratio", &Summary::stress_drop_ratio},
-    {"plateau_stress", &Summary::plateau_stress},
-    {"minimum_stress_in_window", &Summary::minimum_stress_in_window},
-    {"undulation", &Summary::undulation},
-    {"densification_strain", &Summary::densification_strain},
-    {"efficiency_strain", &Summary::efficiency_strain},
-    {"only_rising_strain", &Summary::only_rising_strain},
-    {"recovery_strain", &Summary::recovery_strain},
-    {"intermediate_peaks", &Summary::intermediate_peaks},
-    {"energy_absorbed", &Summary::energy_absorbed},
-    {"cundall_share", &Summary::cundall_share},
-    {"largest_fragment_fraction", &Summary::largest_fragment_fraction},
-    {"max_overlap_in_run", &Summary::max_overlap_in_run},
-    {"energy_residual", &Summary::energy_residual},
-    {"stress_asymmetry", &Summary::stress_asymmetry},
-    {"transits_before_peak", &Summary::transits_before_peak},
-    {"kinetic_ratio_at_peak", &Summary::kinetic_ratio_at_peak},
-    {"step_margin", &Summary::step_margin},
-    {"noise_mean", &Summary::noise_mean},
-    {"noise_std", &Summary::noise_std},
-    {"noise_min", &Summary::noise_min},
-    {"noise_max", &Summary::noise_max},
+/// Sets what a measure's member holds from a record; functions have none.
+struct Setter {
+  const json& record;
+  const char* key;
+  PackSummary& pack;
+  Summary& summary;
+  void operator()(double PackSummary::*member) const { pack.*member = number_from(record, key); }
+  void operator()(double Summary::*member) const { summary.*member = number_from(record, key); }
+  void operator()(std::int64_t PackSummary::*member) const { pack.*member = record.value(key, std::int64_t{0}); }
+  void operator()(std::int64_t Summary::*member) const { summary.*member = record.value(key, std::int64_t{0}); }
+  void operator()(double (*)(const PackSummary&)) const {}
 };
 
-struct SummaryCount {
-  const char* name;
-  std::int64_t Summary::*value;
-};
-constexpr SummaryCount summary_counts[] = {
-    {"steps", &Summary::steps},
-    {"broken_bonds", &Summary::broken_bonds},
-    {"broken_in_tension", &Summary::broken_in_tension},
-    {"broken_in_shear", &Summary::broken_in_shear},
-    {"fragments", &Summary::fragments},
-};
-
-struct PackNumber {
-  const char* name;
-  double PackSummary::*value;
-};
-constexpr PackNumber pack_numbers[] = {
-    {"mean_diameter", &PackSummary::mean_diameter},
-    {"solid_fraction", &PackSummary::solid_fraction},
-    {"porosity", &PackSummary::porosity},
-    {"bonds_per_disc", &PackSummary::bonds_per_disc},
-    {"thinnest_wall_discretised", &PackSummary::thinnest_wall_discretised},
-    {"max_overlap_ratio", &PackSummary::max_overlap_ratio},
-    {"coordination_number", &PackSummary::coordination_number},
-    {"rattler_fraction", &PackSummary::rattler_fraction},
-};
-
-PackSummary pack_from(const json& record) {
-  PackSummary pack;
-  pack.discs = record.at("discs").get<std::int64_t>();
-  pack.perforations = record.at("perforations").get<std::int64_t>();
-  for (const PackNumber& entry : pack_numbers) pack.*entry.value = number_from(record, entry.name);
-  const json& wall = record.at("thinnest_wall");
-  pack.thinnest_wall.thickness = wall.is_null() ? std::numeric_limits<double>::infinity() : wall.get<double>();
-  const json& pair = record.at("thinnest_wall_pair");
-  if (!pair.is_null()) {
-    pack.thinnest_wall.first = pair.at(0).get<int>();
-    pack.thinnest_wall.second = pair.at(1).get<int>();
-  }
-  return pack;
+/// The measures of the packing, or those of the run.
+json measures_json(bool of_packing, const PackSummary& pack, const Summary& summary) {
+  struct Getter {
+    const PackSummary& pack;
+    const Summary& summary;
+    json operator()(std::int64_t PackSummary::*member) const { return pack.*member; }
+    json operator()(std::int64_t Summary::*member) const { return summary.*member; }
+    json operator()(double PackSummary::*member) const { return number(pack.*member); }
+    json operator()(double Summary::*member) const { return number(summary.*member); }
+    json operator()(double (*function)(const PackSummary&)) const { return number(function(pack)); }
+  };
+  json record = json::object();
+  for (const Measure& measure : measures())
+    if (measure.of_packing() == of_packing) record[measure.key] = std::visit(Getter{pack, summary}, measure.member);
+  return record;
 }
 
-Summary summary_from(const json& record) {
-  Summary summary;
-  for (const SummaryNumber& entry : summary_numbers) summary.*entry.value = number_from(record, entry.name);
-  for (const SummaryCount& entry : summary_counts) summary.*entry.value = record.at(entry.name).get<std::int64_t>();
+void read_thinnest_wall(const json& record, geometry::ThinnestWall& thinnest) {
+  const json& wall = record.at("thinnest_wall");
+  thinnest.thickness = wall.is_null() ? std::numeric_limits<double>::infinity() : wall.get<double>();
+  const json& pair = record.at("thinnest_wall_pair");
+  if (pair.is_null()) return;
+  thinnest.first = pair.at(0).get<int>();
+  thinnest.second = pair.at(1).get<int>();
+}
+
+void read_measures(const json& record, PackSummary& pack, Summary& summary) {
+  for (const Measure& measure : measures()) std::visit(Setter{record, measure.key, pack, summary}, measure.member);
+  read_thinnest_wall(record, pack.thinnest_wall);
   for (const json& peak : record.value("peaks", json::array()))
     summary.peaks.push_back({peak.at(0).get<double>(), peak.at(1).get<double>()});
   summary.plateau_start = record.at("plateau_window").at(0).get<double>();
   summary.plateau_end = record.at("plateau_window").at(1).get<double>();
-  return summary;
 }
 
 Performance performance_from(const json& record) {
@@ -156,18 +115,14 @@ json record_head(const char* schema, RunStatus status, const std::string& reason
 }
 
 json to_json(const PackSummary& summary) {
-  json record = {{"discs", summary.discs}, {"perforations", summary.perforations}};
-  for (const PackNumber& entry : pack_numbers) record[entry.name] = number(summary.*entry.value);
+  json record = measures_json(true, summary, {});
   const geometry::ThinnestWall& wall = summary.thinnest_wall;
-  record["thinnest_wall"] = number(wall.first < 0 ? std::numeric_limits<double>::infinity() : wall.thickness);
   record["thinnest_wall_pair"] = wall.first < 0 ? json(nullptr) : json::array({wall.first, wall.second});
   return record;
 }
 
 json to_json(const Summary& summary) {
-  json record = json::object();
-  for (const SummaryNumber& entry : summary_numbers) record[entry.name] = number(summary.*entry.value);
-  for (const SummaryCount& entry : summary_counts) record[entry.name] = summary.*entry.value;
+  json record = measures_json(false, {}, summary);
   json peaks = json::array();
   for (const CurvePeak& peak : summary.peaks) peaks.push_back({peak.strain, peak.stress});
   record["peaks"] = peaks;
@@ -212,8 +167,7 @@ Evaluation evaluation_from_json(const json& record) {
   evaluation.seeds.layout = seeds.at("layout").get<std::uint64_t>();
   evaluation.seeds.search = seeds.at("search").get<std::uint64_t>();
   evaluation.replicate = record.at("replicate").get<int>();
-  evaluation.pack = pack_from(record);
-  evaluation.summary = summary_from(record);
+  read_measures(record, evaluation.pack, evaluation.summary);
   evaluation.summary.status = evaluation.status;
   evaluation.summary.reason = evaluation.reason;
   evaluation.performance = performance_from(record.at("performance"));

@@ -6,12 +6,14 @@
 #include <limits>
 #include <vector>
 
+#include "results/measure_table.h"
+
 namespace perfora::results {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan = not_reached;
 constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
-constexpr double smoothing_width = 0.005;     // docs/theory.md: the 0.5 %-smoothed stress
+constexpr double smoothing_width = 0.005;     // docs/user/theory.md: the 0.5 %-smoothed stress
 constexpr double rising_share = 0.9;          // "only rises": never falls below this share of an earlier stress
 constexpr double recovery_share = 0.5;        // of the first peak
 constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
@@ -179,18 +181,27 @@ double loading_modulus(const History& history, double peak_stress, double peak_s
   return n >= 3.0 && spread > 0.0 ? (n * sxy - sx * sy) / spread : nan;
 }
 
+namespace {
+
+/// All measures that measure_curve() fills are not reached.
+void reset_curve_measures(Summary& summary) {
+  for (const Measure& measure : measures()) {
+    const bool given = std::string_view(measure.key).starts_with("first_peak_");
+    if (measure.group != MeasureGroup::curve || given) continue;
+    if (const auto* member = std::get_if<double Summary::*>(&measure.member)) summary.** member = nan;
+  }
+  summary.peaks.clear();
+}
+
+}  // namespace
+
 void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
                    Summary& summary) {
   const auto& strain = history.strain_yy;
   const auto& stress = history.stress_yy;
   summary.plateau_start = plateau_start;
   summary.plateau_end = plateau_end;
-  for (double* value :
-       {&summary.plateau_stress, &summary.minimum_stress_in_window, &summary.undulation, &summary.densification_strain,
-        &summary.cundall_share, &summary.efficiency_strain, &summary.only_rising_strain, &summary.energy_absorbed,
-        &summary.stress_drop_ratio, &summary.recovery_strain, &summary.intermediate_peaks})
-    *value = nan;
-  summary.peaks.clear();
+  reset_curve_measures(summary);
   if (strain.size() < 2) return;
   const double work_end = std::min(plateau_end, strain.back());
   const double work = interpolate(strain, history.external_work, work_end);

@@ -12,13 +12,17 @@
 
 namespace perfora::results {
 
+/// What a number holds that was not reached (NaN; written as null).
+inline constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
+
 /// What `perfora pack` reports, beside what evaluate reports.
 struct PackSummary {
   std::int64_t discs = 0, perforations = 0;
-  double mean_diameter = 0.0, solid_fraction = 0.0, porosity = 0.0, bonds_per_disc = 0.0;
+  double mean_diameter = not_reached, solid_fraction = not_reached, porosity = not_reached,
+         bonds_per_disc = not_reached;
   geometry::ThinnestWall thinnest_wall;
-  double thinnest_wall_discretised = 0.0;
-  double max_overlap_ratio = 0.0, coordination_number = 0.0, rattler_fraction = 0.0;
+  double thinnest_wall_discretised = not_reached;
+  double max_overlap_ratio = not_reached, coordination_number = not_reached, rattler_fraction = not_reached;
 };
 
 /// A maximum of the 0.5 %-smoothed curve.
@@ -27,39 +31,30 @@ struct CurvePeak {
   double stress = 0.0;  ///< Pa
 };
 
-/// Scalar results of one run; NaN where a value was not reached (written as null).
+/// Scalar results of one run, SI, engineering strain; what each means stands in the table of measures
+/// (measure_table.cpp).
 struct Summary {
   RunStatus status = RunStatus::completed;
   std::string reason;  ///< "reached strain 0.6", "wall time", "signal", "unstable step", ...
   std::int64_t steps = 0;
-  double time_step = 0.0;
-  double rate = 0.0;                               ///< mean of the run, 1/s
-  double smallest_rate = 0.0, largest_rate = 0.0;  ///< of all rows, 1/s
+  double time_step = not_reached;
+  double rate = not_reached, smallest_rate = not_reached, largest_rate = not_reached;
   double final_strain = 0.0;
-  double first_peak_stress = 0.0, first_peak_strain = 0.0;
-  double stress_drop_ratio =
-      0.0;  ///< smallest row stress after the first peak (before twice its strain + 1 %) over the peak
-  double plateau_stress = 0.0, plateau_start = 0.0, plateau_end = 0.0;
-  double minimum_stress_in_window = 0.0, undulation = 0.0;
-  double densification_strain = 0.0, efficiency_strain = 0.0;
-  double only_rising_strain = 0.0;  ///< from here on the smoothed stress never falls by more than a tenth
-  double recovery_strain = 0.0;     ///< where the smoothed stress, once below half the first peak, reaches that again
-  double intermediate_peaks = 0.0;  ///< number of `peaks`; NaN without a first peak
+  double first_peak_stress = not_reached, first_peak_strain = not_reached;
+  double stress_drop_ratio = not_reached;
+  double plateau_start = 0.0, plateau_end = 0.0;  ///< the window that the plateau is taken from
+  double plateau_stress = not_reached, minimum_stress_in_window = not_reached, undulation = not_reached;
+  double densification_strain = not_reached, efficiency_strain = not_reached;
+  double only_rising_strain = not_reached, recovery_strain = not_reached;
+  double intermediate_peaks = not_reached;  ///< number of `peaks`
   /// Behind the first peak, at least 5 % of it above the valleys around them (topographic prominence).
   std::vector<CurvePeak> peaks;
-  double energy_absorbed = 0.0;  ///< external work per reference area up to the end of the plateau window, J/m3
-  double cundall_share =
-      0.0;  ///< of the external work up to the end of the plateau window, or of the run when it ends before
+  double energy_absorbed = not_reached, cundall_share = not_reached;
   std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
   std::int64_t fragments = 0;
-  double largest_fragment_fraction = 0.0;  ///< of the solid area
-  double max_overlap_in_run = 0.0;         ///< over <d>
-  double energy_residual = 0.0;
-  double stress_asymmetry = 0.0;  ///< max |sigma_xy - sigma_yx| over the run over the peak
-  // Validity.
-  double transits_before_peak = 0.0;
-  double kinetic_ratio_at_peak = 0.0;  ///< kinetic over elastic energy
-  double step_margin = 0.0;            ///< critical step over the step used
+  double largest_fragment_fraction = not_reached;
+  double max_overlap_in_run = not_reached, energy_residual = not_reached, stress_asymmetry = not_reached;
+  double transits_before_peak = not_reached, kinetic_ratio_at_peak = not_reached, step_margin = not_reached;
   double noise_mean = 1.0, noise_std = 0.0, noise_min = 1.0, noise_max = 1.0;
 };
 

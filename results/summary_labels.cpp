@@ -1,62 +1,23 @@
-// What is here: the tables of labels. What is not: how they are printed (summary_text.cpp).
+// What is here: the tables of labels; those of packings and runs come from the table of measures. What is not: how they
+// are printed (summary_text.cpp).
 #include "results/summary_labels.h"
+
+#include <vector>
+
+#include "results/measure_table.h"
 
 namespace perfora::results {
 namespace {
 
 using enum io::Dimension;
 
-constexpr Label packing[] = {
-    {"discs", "discs", count},
-    {"perforations", "perforations", count},
-    {"mean_diameter", "mean diameter", length},
-    {"solid_fraction", "solid fraction of the packing", ratio},
-    {"porosity", "porosity (share of the perforations)", ratio},
-    {"bonds_per_disc", "bonds per disc", none},
-    {"thinnest_wall", "thinnest wall", length},
-    {"thinnest_wall_discretised", "thinnest wall between the discs", length},
-    {"max_overlap_ratio", "largest overlap / smaller diameter", none},
-    {"coordination_number", "coordination number", none},
-    {"rattler_fraction", "rattlers", ratio},
-};
-
-constexpr Label curve[] = {
-    {"first_peak_stress", "first peak stress", stress},
-    {"first_peak_strain", "first peak strain", ratio},
-    {"stress_drop_ratio", "smallest stress after it / peak", ratio},
-    {"plateau_stress", "plateau stress", stress},
-    {"minimum_stress_in_window", "smallest stress in the window", stress},
-    {"undulation", "undulation", ratio},
-    {"densification_strain", "densification strain", ratio},
-    {"efficiency_strain", "strain of largest efficiency", ratio},
-    {"only_rising_strain", "stress only rises from strain", ratio},
-    {"recovery_strain", "half the first peak again at strain", ratio},
-    {"intermediate_peaks", "peaks behind the first", count},
-    {"energy_absorbed", "energy absorbed to window end", energy_density},
-    {"cundall_share", "share of Cundall damping in the work", ratio},
-};
-
-constexpr Label damage[] = {
-    {"broken_bonds", "broken bonds", count},
-    {"broken_in_tension", "  in tension", count},
-    {"broken_in_shear", "  in shear", count},
-    {"fragments", "fragments", count},
-    {"largest_fragment_fraction", "largest fragment (of the solid)", ratio},
-};
-
-constexpr Label run[] = {
-    {"final_strain", "strain reached", ratio},
-    {"steps", "steps", count},
-    {"time_step", "time step", time},
-    {"rate", "mean strain rate", rate},
-    {"smallest_rate", "  smallest", rate},
-    {"largest_rate", "  largest", rate},
-    {"energy_residual", "energy residual", ratio},
-    {"max_overlap_in_run", "largest overlap / mean diameter", ratio},
-    {"transits_before_peak", "wave transits before the peak", none},
-    {"kinetic_ratio_at_peak", "kinetic / elastic energy at the peak", ratio},
-    {"step_margin", "critical step / step", none},
-};
+/// The printed measures of a group as labels.
+std::vector<Label> labels_of(MeasureGroup group) {
+  std::vector<Label> labels;
+  for (const Measure& measure : measures())
+    if (measure.group == group) labels.push_back({measure.key, measure.label, measure.dimension});
+  return labels;
+}
 
 constexpr Label elastic[] = {
     {"bonds", "bonds", count},
@@ -128,16 +89,20 @@ constexpr Label estimate[] = {
 }  // namespace
 
 std::span<const Label> packing_labels() {
-  return packing;
+  static const std::vector<Label> labels = labels_of(MeasureGroup::packing);
+  return labels;
 }
 std::span<const Label> curve_labels() {
-  return curve;
+  static const std::vector<Label> labels = labels_of(MeasureGroup::curve);
+  return labels;
 }
 std::span<const Label> damage_labels() {
-  return damage;
+  static const std::vector<Label> labels = labels_of(MeasureGroup::breakage);
+  return labels;
 }
 std::span<const Label> run_labels() {
-  return run;
+  static const std::vector<Label> labels = labels_of(MeasureGroup::run);
+  return labels;
 }
 std::span<const Label> elastic_labels() {
   return elastic;
@@ -159,9 +124,9 @@ std::span<const Label> estimate_labels() {
 }
 
 io::Dimension dimension_of(std::string_view key) {
-  for (const auto labels : {curve_labels(), damage_labels(), run_labels(), packing_labels(), material_labels()})
-    for (const Label& one : labels)
-      if (one.key == key) return one.dimension;
+  if (const Measure* measure = measure_called(key)) return measure->dimension;
+  for (const Label& one : material_labels())
+    if (one.key == key) return one.dimension;
   return none;
 }
 

@@ -13,7 +13,7 @@ namespace perfora::solver {
 namespace {
 
 constexpr double allowed_dip =
-    0.25;  // of the mean diameter, docs/theory.md "Bonds": the soft rim of clipped discs is not a void
+    0.25;  // of the mean diameter, docs/user/theory.md "Bonds": the soft rim of clipped discs is not a void
 
 struct Branch {
   double x, y;

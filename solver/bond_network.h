@@ -34,8 +34,8 @@ struct FieldFrame {
 };
 
 /// Bonds every pair with centre distance <= r_H = horizon x mean_diameter, and every touching pair; none where the
-/// segment dips into a perforation by more than 0.25 mean_diameter (docs/theory.md, "Bonds"). Strength factors from the
-/// noise options at the bond's midpoint. Periodic. Cost O(discs + bonds).
+/// segment dips into a perforation by more than 0.25 mean_diameter (docs/user/theory.md, "Bonds"). Strength factors
+/// from the noise options at the bond's midpoint. Periodic. Cost O(discs + bonds).
 BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
                               const MaterialOptions& material, const NoiseOptions& noise, std::uint64_t noise_seed,
                               double mean_diameter, const FieldFrame& frame = {});

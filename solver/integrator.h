@@ -9,7 +9,7 @@
 
 namespace perfora::solver {
 
-/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; docs/theory.md for the sign of the
+/// Cundall's local damping: F (1 - c sign(F v)), per component (paper, Table 1; docs/user/theory.md for the sign of the
 /// fluctuating velocity).
 inline double damped(double force, double velocity, double coefficient) {
   const double power = force * velocity;

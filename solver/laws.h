@@ -1,7 +1,7 @@
 // What is here: the bond law and the contact law as parameter structs and pure inline functions from scalars to scalars
 // (history in, history out). What is not: loops, discs, lists (kernels/). Only IEEE basic operations
-// and sqrt, so that bits do not depend on a maths library. Sources: paper, Fig. 3 and Table 1; docs/theory.md for what
-// the paper leaves open.
+// and sqrt, so that bits do not depend on a maths library. Sources: paper, Fig. 3 and Table 1; docs/user/theory.md for
+// what the paper leaves open.
 #pragma once
 
 #include <algorithm>
@@ -145,7 +145,7 @@ inline double bond_energy(const BondLaw& law, const BondPoint& at, double damage
 
 /// Energy that a change dD takes at fixed displacements, over dD: U0 = -dU/dD, J/m. Taken between two points it is the
 /// bilinear form of the same quadratic energy, which is exactly what the trapezoid of the forces over that step leaves
-/// over (docs/theory.md, "Ledger").
+/// over (docs/user/theory.md, "Ledger").
 inline double damageable_energy(const BondLaw& law, const BondPoint& before, const BondPoint& after) {
   double normal = std::max(0.0, before.delta_n) * std::max(0.0, after.delta_n);
   if (law.damage_in_compression == DamageInCompression::full)
@@ -163,8 +163,8 @@ inline double compression_release(const BondLaw& law, const BondPoint& before, c
          (std::max(0.0, -before.delta_n) * std::max(0.0, -after.delta_n) - before.overlap * after.overlap);
 }
 
-/// A bond's displacements from its geometry (docs/theory.md, "Bonds"): branch r = x_j - x_i, reference direction e0 and
-/// length l0, cosine and sine of theta = (theta_i + theta_j)/2.
+/// A bond's displacements from its geometry (docs/user/theory.md, "Bonds"): branch r = x_j - x_i, reference direction
+/// e0 and length l0, cosine and sine of theta = (theta_i + theta_j)/2.
 struct BondKinematics {
   double length = 0.0;  ///< |r|
   double nx = 0.0, ny = 0.0;
@@ -248,7 +248,7 @@ inline ContactForce contact_opening(const ContactLaw& law, double v_n, double v_
   return lost;
 }
 
-/// Factor on the critical displacements for this disc size (docs/theory.md, "Resolution").
+/// Factor on the critical displacements for this disc size (docs/user/theory.md, "Resolution").
 double threshold_factor(const MaterialOptions& material, double mean_diameter);
 
 /// The law of a design's material for this disc size.

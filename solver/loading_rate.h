@@ -1,5 +1,5 @@
 // What is here: the loading rate as a controlled quantity: the strain path in segments, and the rate of the next
-// segment from what the last one measured (docs/theory.md, "Loading rate"). What is not: the measuring
+// segment from what the last one measured (docs/user/theory.md, "Loading rate"). What is not: the measuring
 // (simulation.cpp), the estimate that a plan rests on (mass.h).
 #pragma once
 
@@ -48,7 +48,7 @@ inline double path_strain(const LoadingPlan& plan, const LoadingState& state) {
   return (state.segment + (state.steps > 0.0 ? state.step / state.steps : 0.0)) * plan.segment_strain;
 }
 
-/// Rate that the measures allow (docs/theory.md, "Loading rate"), without regard to the rate before.
+/// Rate that the measures allow (docs/user/theory.md, "Loading rate"), without regard to the rate before.
 double allowed_rate(const LoadingPlan& plan, const SegmentMeasures& measures);
 
 /// Ends the present segment: its mean stress goes into the running mean.

@@ -11,7 +11,7 @@
 namespace perfora::solver {
 namespace {
 
-constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, docs/theory.md "Motion"
+constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, docs/user/theory.md "Motion"
 
 /// How many times the contacts to come count in the masses of uniform_step. Discs that holes took bonds from are the
 /// lightest, and in contacts they limit the step: with 10 for 1 that limit is 1.2 times longer on Table 1's networks
@@ -139,7 +139,8 @@ double voigt_modulus(const MaterialOptions& material, double bond_density) {
 LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options) {
   LoadingEstimate e;
   // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
-  // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule (docs/theory.md).
+  // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule
+  // (docs/user/theory.md).
   e.modulus = network_share * block.voigt_modulus * (1.0 - block.porosity);
   e.bulk_density = block.bulk_density;
   e.wave_speed = std::sqrt(e.modulus / e.bulk_density);

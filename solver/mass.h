@@ -18,8 +18,8 @@ struct MassProperties {
 };
 
 /// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over
-/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/theory.md, "Motion"). `physical`: rho pi R^2 and m
-/// R^2/2. `uniform_step`: m_i ~ K_i + 54 k_n (contacts count tenfold) with the total kept and I_i = m_i KR_i/K_i, so
+/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/user/theory.md, "Motion"). `physical`: rho pi R^2 and
+/// m R^2/2. `uniform_step`: m_i ~ K_i + 54 k_n (contacts count tenfold) with the total kept and I_i = m_i KR_i/K_i, so
 /// that all discs have nearly the same critical step in bonds and in contacts; statics are exact.
 MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
                            const MaterialOptions& material, const DynamicsOptions& dynamics);
@@ -34,7 +34,7 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
 /// neighbours, both times (1 + c) for Cundall damping; the least over all discs.
 double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping);
 
-/// Share of Voigt's C11 that a relaxed packing keeps (0.82 to 0.96 for H = 2 to 4, docs/verification.md).
+/// Share of Voigt's C11 that a relaxed packing keeps (0.82 to 0.96 for H = 2 to 4, docs/developer/verification.md).
 inline constexpr double network_share = 0.85;
 /// Voigt's C11, Pa, of bonds with sum l^2/area = `bond_density` (-).
 double voigt_modulus(const MaterialOptions& material, double bond_density);

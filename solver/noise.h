@@ -36,7 +36,7 @@ double perlin_amplitude(const NoiseOptions& noise);
 double largest_perlin_amplitude();
 double largest_perlin_deviation();
 
-/// 1 + Delta (noise - 1/2) or exp(Delta (noise - 1/2)), noise = (p + 1)/2 (docs/theory.md, "Heterogeneity").
+/// 1 + Delta (noise - 1/2) or exp(Delta (noise - 1/2)), noise = (p + 1)/2 (docs/user/theory.md, "Heterogeneity").
 inline double perlin_factor(double p, double amplitude, NoiseMapping mapping) {
   const double deviation = amplitude * ((p + 1.0) / 2.0 - 0.5);
   return mapping == NoiseMapping::linear ? 1.0 + deviation : std::exp(deviation);

@@ -73,7 +73,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .choice("control", loading.control,
               {{"adaptive", LoadingControl::adaptive}, {"constant", LoadingControl::constant}},
               "adaptive: slow before the first peak and in avalanches, faster as the rubble carries more "
-              "(docs/theory.md, \"Loading rate\"); constant: one rate from transits.")
+              "(docs/user/theory.md, \"Loading rate\"); constant: one rate from transits.")
       .real("rate", loading.rate, Dimension::rate, Range::non_negative(),
             "Strain rate dH/dt/H0, constant; 0: from control and transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),
@@ -103,7 +103,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
            {"portable", SimdChoice::portable}},
           "Instruction set of the vector kernels; auto: the best this machine has. Equal bits hold on one of them.");
   BoundaryOptions& boundary = options.boundary;
-  schema.section("boundary", "What stands at the edges of the block (docs/theory.md, \"Boundaries\").")
+  schema.section("boundary", "What stands at the edges of the block (docs/user/theory.md, \"Boundaries\").")
       .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
               "periodic; rigid platens that press and rub but do not pull.")
       .choice("sides", boundary.sides, {{"periodic", Sides::periodic}, {"walls", Sides::walls}, {"free", Sides::free}},

@@ -25,8 +25,8 @@ struct RunSetup {
 
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout);
 
-/// Bonds the request's packing and chooses rate and step (docs/theory.md, "Motion"). Throws io::InputError when nothing
-/// is bonded.
+/// Bonds the request's packing and chooses rate and step (docs/user/theory.md, "Motion"). Throws io::InputError when
+/// nothing is bonded.
 RunSetup set_up_run(const RunRequest& request);
 
 }  // namespace perfora::solver

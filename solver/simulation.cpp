@@ -222,7 +222,7 @@ void Simulation::record_breaks() {
     event.j = j;
     event.x = x + 0.5 * k.nx * k.length;
     event.y = y + 0.5 * k.ny * k.length;
-    // Mode: which term of phi(zeta_max), the surface the bond broke on, is larger (docs/theory.md, "Bonds").
+    // Mode: which term of phi(zeta_max), the surface the bond broke on, is larger (docs/user/theory.md, "Bonds").
     const double scale = 1.0 / (network_.strength[at(id)] * bond_law_.rupture_delay);
     const double tension = k.delta_n * bond_law_.inverse_critical_normal * scale;
     const double shear =

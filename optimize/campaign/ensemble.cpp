@@ -11,6 +11,7 @@
 #include "io/journal.h"
 #include "optimize/campaign/work_folder.h"
 #include "optimize/evaluate/request.h"
+#include "results/measure_table.h"
 
 namespace perfora::optimize {
 
@@ -18,24 +19,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-/// The results statistics are taken of.
-struct Result {
-  const char* name;
-  double (*value)(const Evaluation&);
-};
-constexpr Result listed_results[] = {
-    {"plateau_stress", [](const Evaluation& e) { return e.summary.plateau_stress; }},
-    {"first_peak_stress", [](const Evaluation& e) { return e.summary.first_peak_stress; }},
-    {"first_peak_strain", [](const Evaluation& e) { return e.summary.first_peak_strain; }},
-    {"minimum_stress_in_window", [](const Evaluation& e) { return e.summary.minimum_stress_in_window; }},
-    {"undulation", [](const Evaluation& e) { return e.summary.undulation; }},
-    {"densification_strain", [](const Evaluation& e) { return e.summary.densification_strain; }},
-    {"energy_absorbed", [](const Evaluation& e) { return e.summary.energy_absorbed; }},
-    {"cundall_share", [](const Evaluation& e) { return e.summary.cundall_share; }},
-    {"broken_bonds", [](const Evaluation& e) { return static_cast<double>(e.summary.broken_bonds); }},
-    {"fragments", [](const Evaluation& e) { return static_cast<double>(e.summary.fragments); }},
-};
 
 /// Names an ensemble whatever the number of replicates.
 std::string ensemble_key(const DesignFile& design) {
@@ -100,11 +83,11 @@ std::vector<Evaluation> read_finished(io::Journal& journal, const std::string& k
 
 std::vector<results::Statistic> statistics_of(const std::vector<Evaluation>& replicates) {
   std::vector<results::Statistic> statistics;
-  for (const Result& result : listed_results) {
+  for (const results::Measure* result : results::ensemble_measures()) {
     std::vector<double> values;
     for (const Evaluation& evaluation : replicates)
-      if (evaluation.status == results::RunStatus::completed) values.push_back(result.value(evaluation));
-    statistics.push_back(results::statistic_of(result.name, values));
+      if (evaluation.status == results::RunStatus::completed) values.push_back(results::value_of(*result, evaluation));
+    statistics.push_back(results::statistic_of(result->key, values));
   }
   return statistics;
 }
@@ -187,14 +170,14 @@ json to_json(const Ensemble& ensemble) {
 
 std::string ensemble_csv(const Ensemble& ensemble) {
   std::string text = "replicate,status,packing_seed,noise_seed";
-  for (const Result& result : listed_results) text += std::string(",") + result.name;
+  for (const results::Measure* result : results::ensemble_measures()) text += std::string(",") + result->key;
   text += "\n";
   for (const Evaluation& evaluation : ensemble.replicates) {
     text += fmt::format("{},{},{},{}", evaluation.replicate,
                         evaluation.status == results::RunStatus::completed ? "completed" : "failed",
                         evaluation.seeds.packing, evaluation.seeds.noise);
-    for (const Result& result : listed_results) {
-      const double value = result.value(evaluation);
+    for (const results::Measure* result : results::ensemble_measures()) {
+      const double value = results::value_of(*result, evaluation);
       text += std::isfinite(value) ? fmt::format(",{:.17g}", value) : std::string(",");
     }
     text += "\n";

@@ -53,7 +53,4 @@ struct ChildOptions {
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.
 std::unique_ptr<Executor> make_child_executor(ChildOptions options);
 
-/// The evaluation that stands for a failure outside the simulation.
-Evaluation failed_evaluation(const Request& request, const std::string& reason);
-
 }  // namespace perfora::optimize

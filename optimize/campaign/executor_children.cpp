@@ -205,7 +205,7 @@ class ChildExecutor final : public Executor {
     }
     const std::string reason =
         fmt::format("{}, {} times in a row", why.empty() ? death_text(status) : why, job->attempts);
-    answers_.push_back({job->key, failed_evaluation(job->request, reason), job->attempts, seconds});
+    answers_.push_back({job->key, failed_evaluation(reason, job->request.replicate), job->attempts, seconds});
   }
 
   /// Waits for bytes; false after a signal or when nothing runs.

@@ -1,7 +1,6 @@
 // What is here: evaluations on threads of this process. What is not: protection from crashes (executor_children.cpp).
 #include <condition_variable>
 #include <deque>
-#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -18,7 +17,7 @@ Evaluation guarded(const Evaluate& evaluate, const Request& request) {
   try {
     return evaluate(request);
   } catch (const std::exception& error) {
-    return failed_evaluation(request, error.what());
+    return failed_evaluation(error.what(), request.replicate);
   }
 }
 
@@ -94,21 +93,6 @@ class InProcessExecutor final : public Executor {
 
 std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers) {
   return std::make_unique<InProcessExecutor>(std::move(evaluate), workers);
-}
-
-Evaluation failed_evaluation(const Request& request, const std::string& reason) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  Evaluation evaluation;
-  evaluation.status = results::RunStatus::failed;
-  evaluation.reason = reason;
-  evaluation.replicate = request.replicate;
-  evaluation.summary.status = results::RunStatus::failed;
-  evaluation.summary.reason = reason;
-  evaluation.summary.plateau_stress = unknown;
-  evaluation.summary.first_peak_stress = unknown;
-  evaluation.summary.first_peak_strain = unknown;
-  evaluation.summary.undulation = unknown;
-  return evaluation;
 }
 
 }  // namespace perfora::optimize

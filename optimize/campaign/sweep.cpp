@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/campaign/evaluation_queue.h"
+#include "results/measure_table.h"
 
 namespace perfora::optimize {
 namespace {
@@ -347,11 +349,8 @@ std::string sweep_reference() {
 
 const std::vector<std::string>& sweep_measures() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> found{"discs",         "perforations",   "porosity",
-                                   "thinnest_wall", "solid_fraction", "bonds_per_disc"};
-    const nlohmann::json record = to_json(results::Summary{});
-    for (const auto& entry : record.items())
-      if (entry.value().is_number()) found.push_back(entry.key());
+    std::vector<std::string> found;
+    for (const results::Measure* measure : results::sweep_measures()) found.push_back(measure->key);
     return found;
   }();
   return names;
@@ -381,13 +380,10 @@ std::vector<std::string> measures_in(const std::string& list, const io::Origin& 
 }
 
 std::vector<double> measures_of(const Evaluation& evaluation) {
-  nlohmann::json record = to_json(evaluation.summary);
-  record.update(to_json(evaluation.pack));
   std::vector<double> values;
-  for (const std::string& name : sweep_measures()) {
-    const auto found = record.find(name);
-    const bool known = found != record.end() && found->is_number();
-    values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
+  for (const results::Measure* measure : results::sweep_measures()) {
+    const double value = results::value_of(*measure, evaluation);
+    values.push_back(std::isfinite(value) ? value : results::not_reached);
   }
   return values;
 }

@@ -35,7 +35,7 @@ ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& op
 /// schema "perfora.elastic/1": what `perfora evaluate --elastic --json` prints.
 nlohmann::json to_json(const ElasticAnswer& answer);
 
-/// The file of an answer that was reached (docs/formats.md), whole or not at all; `summary` is its JSON form.
+/// The file of an answer that was reached (docs/user/formats.md), whole or not at all; `summary` is its JSON form.
 void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticAnswer& answer,
                         const nlohmann::json& summary, const std::string& command_line);
 

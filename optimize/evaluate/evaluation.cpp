@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
@@ -16,48 +15,6 @@
 namespace perfora::optimize {
 
 namespace {
-
-constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
-
-/// A summary of a run that never began.
-results::Summary empty_summary() {
-  results::Summary summary;
-  for (double* value : {&summary.time_step,
-                        &summary.rate,
-                        &summary.smallest_rate,
-                        &summary.largest_rate,
-                        &summary.first_peak_stress,
-                        &summary.first_peak_strain,
-                        &summary.stress_drop_ratio,
-                        &summary.plateau_stress,
-                        &summary.minimum_stress_in_window,
-                        &summary.undulation,
-                        &summary.densification_strain,
-                        &summary.efficiency_strain,
-                        &summary.only_rising_strain,
-                        &summary.recovery_strain,
-                        &summary.intermediate_peaks,
-                        &summary.energy_absorbed,
-                        &summary.cundall_share,
-                        &summary.largest_fragment_fraction,
-                        &summary.max_overlap_in_run,
-                        &summary.energy_residual,
-                        &summary.stress_asymmetry,
-                        &summary.transits_before_peak,
-                        &summary.kinetic_ratio_at_peak,
-                        &summary.step_margin})
-    *value = not_reached;
-  return summary;
-}
-
-results::PackSummary empty_pack_summary() {
-  results::PackSummary summary;
-  for (double* value : {&summary.mean_diameter, &summary.solid_fraction, &summary.porosity, &summary.bonds_per_disc,
-                        &summary.thinnest_wall_discretised, &summary.max_overlap_ratio, &summary.coordination_number,
-                        &summary.rattler_fraction})
-    *value = not_reached;
-  return summary;
-}
 
 geometry::Packing packing_from_file(const std::filesystem::path& path, const geometry::PackingKey& wanted) {
   const io::Hdf5Reader file(path);
@@ -92,7 +49,6 @@ results::PackSummary summarise(const geometry::PerforationLayout& layout, const 
   summary.mean_diameter = periodic.mean_diameter();
   summary.solid_fraction = periodic.quality.solid_fraction;
   summary.porosity = 1.0 - layout.solid_area_fraction();
-  summary.bonds_per_disc = not_reached;
   summary.thinnest_wall = geometry::thinnest_wall(layout);
   summary.thinnest_wall_discretised = geometry::thinnest_wall_discretised(clipped, layout);
   summary.max_overlap_ratio = periodic.quality.max_overlap_ratio;
@@ -179,8 +135,6 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
   evaluation.reason = reason;
   evaluation.replicate = replicate;
   evaluation.seeds = seeds;
-  evaluation.pack = empty_pack_summary();
-  evaluation.summary = empty_summary();
   evaluation.summary.status = evaluation.status;
   evaluation.summary.reason = reason;
   return evaluation;

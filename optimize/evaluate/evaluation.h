@@ -62,8 +62,8 @@ double mean_diameter_of(const DesignFile& design, const geometry::Packing& perio
 results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
                                   const std::string& command_line);
 
-/// P.h5 of a packed design (docs/formats.md), whole or not at all; `summary` is the object that `perfora pack --json`
-/// prints.
+/// P.h5 of a packed design (docs/user/formats.md), whole or not at all; `summary` is the object that `perfora pack
+/// --json` prints.
 void write_pack_file(const std::filesystem::path& path, const DesignFile& design, const PackedDesign& packed,
                      const nlohmann::json& summary, const std::string& command_line);
 

@@ -35,7 +35,7 @@ struct MaterialTestRun {
 /// young_modulus, poisson_ratio (two-dimensional, from tension; from compression where there is no tension test),
 /// shear_modulus, oedometric_modulus, tensile_strength, compressive_strength, shear_strength, oedometric_strength,
 /// strength_ratio (compressive/tensile), fracture_energy (J/m2), characteristic_length (E G/sigma_t^2, m), and the
-/// plane-strain reading young_modulus_plane_strain, poisson_ratio_plane_strain (docs/theory.md, "Material tests").
+/// plane-strain reading young_modulus_plane_strain, poisson_ratio_plane_strain (docs/user/theory.md, "Material tests").
 struct MaterialTests {
   results::RunStatus status = results::RunStatus::completed;
   std::string reason;
@@ -62,7 +62,7 @@ MaterialTests test_material(const DesignFile& design, const std::vector<solver::
 /// schema "perfora.test/1".
 nlohmann::json to_json(const MaterialTests& tests);
 
-/// T.h5 (docs/formats.md, "Material tests"), whole or not at all.
+/// T.h5 (docs/user/formats.md, "Material tests"), whole or not at all.
 void write_material_tests(const std::filesystem::path& path, const DesignFile& design, const MaterialTests& tests,
                           const std::string& command_line);
 

@@ -26,7 +26,8 @@ using solver::MaterialTestKind;
 
 constexpr const char* own_files[] = {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
                                      "reachable.png", "confirmation.h5", "confirmation.png"};
-/// delta_t0/delta_n0 searched (docs/theory.md, "Calibration"); the ratio of strengths still grows at the upper end.
+/// delta_t0/delta_n0 searched (docs/user/theory.md, "Calibration"); the ratio of strengths still grows at the upper
+/// end.
 constexpr double least_shear_ratio = 1.0, largest_shear_ratio = 32.0;
 /// Other zeta_max to try, nearest to the design's first.
 constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};

@@ -1,5 +1,5 @@
-// What is here: engineering constants of a plane stiffness (docs/theory.md, "Elastic answer"). What is not: how the
-// stiffness is found (elastic.cpp).
+// What is here: engineering constants of a plane stiffness (docs/user/theory.md, "Elastic answer"). What is not: how
+// the stiffness is found (elastic.cpp).
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>

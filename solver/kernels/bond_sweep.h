@@ -20,7 +20,7 @@ struct Group {
   std::int32_t neighbour[lanes];
 };
 
-/// How many groups ahead the rows are fetched: they stream from the outer caches (docs/performance.md).
+/// How many groups ahead the rows are fetched: they stream from the outer caches (docs/developer/performance.md).
 constexpr int prefetched_groups = 8;
 
 PERFORA_INLINE Floats half_integer_power_of(Floats base, int twice_exponent) {

@@ -123,7 +123,7 @@ PERFORA_INLINE float sum(const Floats& v) {
 }
 
 /// The four fields of the 16-byte records at base + offset[lane], each record loaded whole, then transposed four by
-/// four. Measured against gathers of the fields, which take 1.4 times as long (docs/performance.md).
+/// four. Measured against gathers of the fields, which take 1.4 times as long (docs/developer/performance.md).
 struct Fields {
   Ints x, y;
   Floats c, s;

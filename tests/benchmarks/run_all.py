@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""All benchmarks of docs/performance.md, one JSON file.
+"""All benchmarks of docs/developer/performance.md, one JSON file.
 
     tests/benchmarks/run_all.py [--build build/release] [--output benchmarks.json] [--only parts,packing,stages,runs] [--long]
 

@@ -51,7 +51,7 @@ TEST(Packing, JammedIsNearlyIsostaticAndKeepsTheOverlapLimit) {
     EXPECT_LE(brute_force::max_overlap_ratio(packing), 1e-3);
     EXPECT_NEAR(brute_force::max_overlap_ratio(packing), packing.quality.max_overlap_ratio, 1e-9);
     EXPECT_TRUE(brute_force::all_inside(packing));
-    // docs/theory.md: 0.84 to 0.86 for this law; 1,500 discs scatter by about 0.002.
+    // docs/user/theory.md: 0.84 to 0.86 for this law; 1,500 discs scatter by about 0.002.
     EXPECT_GT(packing.quality.solid_fraction, 0.84);
     EXPECT_LT(packing.quality.solid_fraction, 0.86);
     EXPECT_NEAR(packing.quality.jamming_fraction, packing.quality.solid_fraction, 1e-9);

@@ -1,4 +1,4 @@
-// What is here: the power law of diameters against its closed forms and the numbers of docs/theory.md.
+// What is here: the power law of diameters against its closed forms and the numbers of docs/user/theory.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace perfora::geometry {
 namespace {
 
 TEST(SizeLaw, Table1HasExponent290) {
-  EXPECT_NEAR(size_law_exponent(0.5044e-3, 1.0e-3, 3.0), 2.90, 0.005);  // docs/theory.md, "Block, perforations, packing"
+  EXPECT_NEAR(size_law_exponent(0.5044e-3, 1.0e-3, 3.0), 2.90,
+              0.005);  // docs/user/theory.md, "Block, perforations, packing"
 }
 
 TEST(SizeLaw, ExponentThreeHasMeanOneHalf) {

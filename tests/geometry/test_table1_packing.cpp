@@ -1,5 +1,5 @@
 // What is here: the 150 x 150 mm packing of Table 1. Numbers from the paper's Table 1 and
-// docs/theory.md.
+// docs/user/theory.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

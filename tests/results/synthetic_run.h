@@ -20,7 +20,7 @@ struct SyntheticRun {
 /// after a peak of 0.55 MPa at 0.9 %.
 SyntheticRun make_run(double size, int holes, double mean_diameter, double until, unsigned seed = 1);
 
-/// Writes it as docs/formats.md says.
+/// Writes it as docs/user/formats.md says.
 void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path);
 void write_pack(const SyntheticRun& synthetic, const std::filesystem::path& path);
 

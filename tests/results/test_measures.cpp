@@ -186,7 +186,7 @@ TEST(Noise, PerlinStatistics) {
   NoiseOptions wanted;
   wanted.deviation = 0.3;
   EXPECT_NEAR(perlin_deviation() * perlin_amplitude(wanted) / 2.0, 0.3, 1e-12);
-  // docs/theory.md: the default Delta = 1.8 gives a spread of about 0.24.
+  // docs/user/theory.md: the default Delta = 1.8 gives a spread of about 0.24.
   EXPECT_NEAR(0.9 * perlin_deviation(), 0.24, 0.02);
 }
 

@@ -102,8 +102,8 @@ TEST(ReferenceKernel, UnloadingReloading) {
   EXPECT_NEAR(stretch(1.2), 0.0, tolerance);
 }
 
-// Rigid rotation of a pair by 100 rad, and far beyond 2 pi in the wrap, makes no force (docs/theory.md: everything is
-// even under e -> -e).
+// Rigid rotation of a pair by 100 rad, and far beyond 2 pi in the wrap, makes no force (docs/user/theory.md: everything
+// is even under e -> -e).
 TEST(ReferenceKernel, RigidRotationMakesNoForce) {
   for (const double theta : {0.1, 1.0, std::numbers::pi, 2.0 * std::numbers::pi, 10.0, 100.0, -100.0}) {
     KernelCase c = two_discs(l0);

@@ -1,5 +1,5 @@
-// What is here: Bond and contact laws against closed forms (paper, Fig. 3; docs/theory.md, "Bonds"). Numbers expected
-// are worked out by hand from the formulas in the comments.
+// What is here: Bond and contact laws against closed forms (paper, Fig. 3; docs/user/theory.md, "Bonds"). Numbers
+// expected are worked out by hand from the formulas in the comments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -177,7 +177,7 @@ TEST(BondLaw, DamageTakesItsShareOfTheEnergy) {
 }
 
 // A break in compression and shear always releases energy: U before >= energy of the contact that follows, touching at
-// min(R_i + R_j, l0) (docs/theory.md, "Contacts").
+// min(R_i + R_j, l0) (docs/user/theory.md, "Contacts").
 TEST(BondLaw, CompressionShearBreakReleasesEnergy) {
   const BondLaw law = table1_law();
   test::Uniform u(13);

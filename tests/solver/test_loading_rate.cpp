@@ -1,5 +1,5 @@
 // What is here: the controlled loading rate: bounds and directions of the controller, exact strains of rows, the same
-// bits for threads and restarts. Expected values: closed forms and properties of docs/theory.md, "Loading rate".
+// bits for threads and restarts. Expected values: closed forms and properties of docs/user/theory.md, "Loading rate".
 #include "solver/loading_rate.h"
 
 #include <gtest/gtest.h>

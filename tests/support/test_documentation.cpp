@@ -1,12 +1,15 @@
-// What is here: documentation held against the code: the reference of docs/design-files.md, keys and files that other
-// pages name. What is not: whether the text is true.
+// What is here: documentation held against the code: the reference of docs/user/design-files.md, keys, links
+// and pages that text and sources name. What is not: whether the text is true.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -35,39 +38,95 @@ std::string printed_reference() {
 }
 
 TEST(Documentation, ReferenceIsWhatTheTableOfKeysPrints) {
-  const std::string text = read_text(source / "docs/design-files.md");
+  const std::string text = read_text(source / "docs/user/design-files.md");
   const std::string line = "\n---\n\n";
   const auto place = text.find(line);
   ASSERT_NE(place, std::string::npos);
   EXPECT_EQ(text.substr(place + line.size()), printed_reference())
-      << "the keys have changed: write what `perfora reference` prints below the line of docs/design-files.md";
+      << "the keys have changed: write what `perfora reference` prints below the line of docs/user/design-files.md";
 }
 
 TEST(Documentation, KeysThatTheTheoryNamesExist) {
   const optimize::DesignFile design;
   const std::regex name("`([a-z]+\\.[a-z_]+)( = [^`]*)?`");
-  const std::string text = read_text(source / "docs/theory.md");
+  const std::string text = read_text(source / "docs/user/theory.md");
   int found = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it) {
     const std::string key = (*it)[1];
     const auto sections = design.schema().section_names();
     if (std::find(sections.begin(), sections.end(), key.substr(0, key.find('.'))) == sections.end()) continue;
-    EXPECT_NE(design.schema().find(key), nullptr) << "docs/theory.md names " << key;
+    EXPECT_NE(design.schema().find(key), nullptr) << "docs/user/theory.md names " << key;
     ++found;
   }
   EXPECT_GT(found, 20);
 }
 
-TEST(Documentation, LinksLeadToFilesThatExist) {
-  const std::regex link("\\]\\(([^)#:]+)(#[^)]*)?\\)");
-  std::vector<fs::path> pages = {source / "README.md", source / "designs/README.md"};
-  for (const auto& entry : fs::directory_iterator(source / "docs")) pages.push_back(entry.path());
-  for (const auto& page : pages) {
-    if (page.extension() != ".md" || !fs::exists(page)) continue;
-    const std::string text = read_text(page);
-    for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
-      EXPECT_TRUE(fs::exists(page.parent_path() / (*it)[1].str())) << page << " links to " << (*it)[1];
+/// Every text file of the project with one of these extensions; what is built or hidden is left out.
+std::vector<fs::path> project_files(const std::vector<std::string>& extensions) {
+  std::vector<fs::path> files;
+  for (auto entry = fs::recursive_directory_iterator(source); entry != fs::recursive_directory_iterator(); ++entry) {
+    const std::string name = entry->path().filename().string();
+    if (entry->is_directory() && (name.front() == '.' || name == "build" || name == "out" || name == "runs"))
+      entry.disable_recursion_pending();
+    const std::string extension = entry->path().extension().string();
+    if (entry->is_regular_file() && std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+      files.push_back(entry->path());
   }
+  return files;
+}
+
+/// The names under which GitHub finds the headings of a page: lower case, a hyphen for a blank, no punctuation.
+std::set<std::string> anchors_of(const std::string& text) {
+  std::set<std::string> anchors;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto start = line.find_first_not_of('#');
+    if (start == 0 || start == std::string::npos || line[start] != ' ') continue;
+    std::string anchor;
+    for (const char c : line.substr(start + 1))
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_')
+        anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      else if (c == ' ')
+        anchor += '-';
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+/// Relative links of a page that lead nowhere: to a file that is missing, or to a heading its page does not have.
+std::vector<std::string> broken_links(const fs::path& page, const std::string& text) {
+  const std::regex link("\\]\\(([^)#:\\s]*)(#([^)\\s]*))?\\)");
+  std::vector<std::string> broken;
+  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
+    const std::string file = (*it)[1], anchor = (*it)[3];
+    const fs::path target = file.empty() ? page : page.parent_path() / file;
+    const bool found = fs::exists(target) && (anchor.empty() || anchors_of(read_text(target)).count(anchor) != 0);
+    if (!found) broken.push_back(file + (*it)[2].str());
+  }
+  return broken;
+}
+
+TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
+  const auto pages = project_files({".md"});
+  ASSERT_GT(pages.size(), 10u);
+  for (const auto& page : pages)
+    EXPECT_THAT(broken_links(page, read_text(page)), ::testing::IsEmpty()) << "links of " << page;
+}
+
+TEST(Documentation, BrokenLinksAreFound) {
+  const std::string text = "[a](README.md) [b](no.md) [c](README.md#two-commands) [d](README.md#no) [e](https://x.org)";
+  EXPECT_THAT(broken_links(source / "page.md", text), ::testing::ElementsAre("no.md", "README.md#no"));
+}
+
+TEST(Documentation, PagesThatSourcesNameExist) {
+  const std::regex name("docs/[A-Za-z0-9_/-]+\\.md");
+  int found = 0;
+  for (const auto& file : project_files({".h", ".cpp", ".md", ".toml", ".py", ".txt"})) {
+    const std::string text = read_text(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++found)
+      EXPECT_TRUE(fs::exists(source / it->str())) << file << " names " << it->str();
+  }
+  EXPECT_GT(found, 20);
 }
 
 }  // namespace

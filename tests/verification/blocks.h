@@ -14,7 +14,7 @@
 
 namespace perfora::verification {
 
-inline constexpr double solid_fraction = 0.719;       ///< of Table 1's block (docs/theory.md)
+inline constexpr double solid_fraction = 0.719;       ///< of Table 1's block (docs/user/theory.md)
 inline constexpr double table1_diameter = 0.5044e-3;  ///< <d>, m
 
 /// A packing with its holes.

@@ -1,5 +1,5 @@
 // What is here: how a check says what it measured, what was expected and within what: printed, and written for
-// docs/verification.md when asked. What is not: the checks.
+// docs/developer/verification.md when asked. What is not: the checks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -69,14 +69,15 @@ inline void expect_between(const std::string& what, double measured, double low,
   EXPECT_TRUE(holds) << what << ": " << measured << ", expected " << low << " to " << high;
 }
 
-/// |measured| <= limit of a check that is known not to hold (docs/verification.md says why): recorded as it is. A test
-/// that asked in vain shows as skipped, with this sentence, so that it stays in sight.
+/// |measured| <= limit of a check that is known not to hold (docs/developer/verification.md says why): recorded as it
+/// is. A test that asked in vain shows as skipped, with this sentence, so that it stays in sight.
 inline bool holds_so_far(const std::string& what, double measured, double limit) {
   const bool holds = std::fabs(measured) <= limit;
   record(what, measured, "at most " + short_text(limit), holds);
   return holds;
 }
-inline constexpr const char* known_not_to_hold = "does not hold: see docs/verification.md, \"What does not hold\"";
+inline constexpr const char* known_not_to_hold =
+    "does not hold: see docs/developer/verification.md, \"What does not hold\"";
 
 /// A table of numbers for a picture: DATA/name.csv, one header line. Nothing without PERFORA_VERIFICATION_DATA.
 inline void write_table(const std::string& name, const std::vector<std::string>& columns,

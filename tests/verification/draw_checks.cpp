@@ -1,4 +1,4 @@
-// What is here: the tables of docs/verification.md, from what the checks wrote.
+// What is here: the tables of docs/developer/verification.md, from what the checks wrote.
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -53,7 +53,8 @@ void insert_checks(const std::filesystem::path& docs) {
     if (table.empty()) table = "\n| check | measured | expected | holds |\n|---|---|---|---|\n";
     table += "| " + in_markdown(line.substr(line.find(" | ") + 3)) + " |\n";
   }
-  std::string document = read(docs / "verification.md");
+  const auto page = docs / "developer" / "verification.md";
+  std::string document = read(page);
   for (const auto& [suite, table] : tables) {
     const std::string open = "<!-- checks: " + suite + " -->\n", close = "<!-- end -->";
     const std::size_t start = document.find(open);
@@ -62,7 +63,7 @@ void insert_checks(const std::filesystem::path& docs) {
     if (to == std::string::npos) throw std::runtime_error("verification.md: no end mark for suite " + suite);
     document.replace(from, to - from, table + "\n");
   }
-  std::ofstream(docs / "verification.md") << document;
+  std::ofstream(page) << document;
 }
 
 }  // namespace perfora::verification

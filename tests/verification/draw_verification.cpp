@@ -1,4 +1,5 @@
-// What is here: the pictures of docs/verification.md, from the tables the checks wrote, and the program around them.
+// What is here: the pictures of docs/developer/verification.md, from the tables the checks wrote, and the program
+// around them.
 #include "tests/verification/draw_verification.h"
 
 #include <algorithm>

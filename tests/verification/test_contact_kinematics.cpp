@@ -1,5 +1,5 @@
 // What is here: the tangential spring of a pair carried by the cell's affine motion, and the angular momentum of pairs
-// that touch. Closed forms are derived in docs/verification.md.
+// that touch. Closed forms are derived in docs/developer/verification.md.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

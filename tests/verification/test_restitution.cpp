@@ -1,5 +1,5 @@
 // What is here: two discs that collide: coefficient of restitution of the cut-off dashpot, and the friction impulse of
-// a sliding impact. Closed forms are derived in docs/verification.md.
+// a sliding impact. Closed forms are derived in docs/developer/verification.md.
 #include <cmath>
 #include <numbers>
 

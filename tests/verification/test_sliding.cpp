@@ -1,5 +1,5 @@
 // What is here: a disc pressed between heavy discs: sliding slows it by mu, and friction spins it up to rolling. Closed
-// forms are derived in docs/verification.md.
+// forms are derived in docs/developer/verification.md.
 #include <cmath>
 
 #include "tests/verification/checks.h"

@@ -63,7 +63,7 @@ int main(int, char** arguments) {
     const Request request = request_from_json(nlohmann::json::parse(line));
     std::ofstream(folder + "/pids", std::ios::app) << ::getpid() << "\n";
     misbehave(request.replicate, folder);
-    Evaluation evaluation = mode == "formula" ? fake_evaluation(request) : failed_evaluation(request, "");
+    Evaluation evaluation = mode == "formula" ? fake_evaluation(request) : failed_evaluation("", request.replicate);
     if (mode == "numbers") {
       evaluation.status = perfora::results::RunStatus::completed;
       evaluation.summary.plateau_stress = 1000.0 * request.replicate;

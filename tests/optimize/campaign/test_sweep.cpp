@@ -23,7 +23,7 @@ std::string sweep_text(const std::string& tables, const std::string& keys = "rep
 Evaluation formula(const Request& request) {
   const solver::MaterialOptions& material = request.design->solver.material;
   const double horizon = material.horizon;
-  if (horizon == 2.25) return failed_evaluation(request, "unstable step");
+  if (horizon == 2.25) return failed_evaluation("unstable step", request.replicate);
   Evaluation evaluation = completed(request);
   evaluation.summary.plateau_stress = 1e5 * (horizon + request.replicate) + 1e4 * material.rupture_delay;
   evaluation.summary.first_peak_stress = std::nan("");

@@ -113,7 +113,7 @@ TEST(ExampleDesigns, OnlyTheQuickOneIsCoarse) {
 }
 
 TEST(ExampleDesigns, QuickKeepsTheSizeLaw) {
-  // A law scaled as a whole keeps its exponent (docs/theory.md: 2.90 for 0.5044 mm and 1 mm).
+  // A law scaled as a whole keeps its exponent (docs/user/theory.md: 2.90 for 0.5044 mm and 1 mm).
   const DesignFile quick(designs / "quick.toml");
   const auto& packing = quick.design().packing;
   EXPECT_NEAR(geometry::size_law_exponent(packing.mean_diameter, packing.maximum_diameter, packing.size_ratio),

@@ -131,8 +131,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, EstimateOfARealPacking,
                                            "noise.kind=perlin", "layout.family=none"));
 
 TEST(Estimate, PhysicalMassesNeedShorterSteps) {
-  // docs/theory.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several times
-  // longer in all.
+  // docs/user/theory.md, "Motion": about 0.36 us true for Table 1 with the bound below it; uniform steps are several
+  // times longer in all.
   const DesignFile uniform(designs / "table1.toml");
   const DesignFile physical(designs / "table1.toml", {"dynamics.mass=physical"});
   EXPECT_LT(estimate_design(physical, 1).time_step, 0.6 * estimate_design(uniform, 1).time_step);

@@ -93,7 +93,7 @@ inline Evaluation fake_evaluation(const Request& request) {
 /// The same with a region of diameters in which every run fails: NaN and a status, as a solver gives it.
 inline Evaluation fake_with_failures(const Request& request) {
   const double diameter = request.design->layout.diameter;
-  if (diameter > 0.0185 && diameter < 0.0200) return failed_evaluation(request, "unstable step");
+  if (diameter > 0.0185 && diameter < 0.0200) return failed_evaluation("unstable step", request.replicate);
   return fake_evaluation(request);
 }
 

@@ -231,7 +231,8 @@ TEST_F(DriverTest, ReportsNoGainWhenTheStartIsBest) {
 
 TEST_F(DriverTest, EndsWithNothingWhenEverythingFails) {
   const Study one = study("maxeval = 8");
-  const Searched searched(one, [](const Request& request) { return failed_evaluation(request, "unstable step"); });
+  const Searched searched(one,
+                          [](const Request& request) { return failed_evaluation("unstable step", request.replicate); });
   const Plan& plan = searched.plan;
   EXPECT_TRUE(plan.finished);
   EXPECT_EQ(plan.best, nullptr);

@@ -80,7 +80,7 @@ TEST(Objective, OrdersSimulatedBeforeFailedBeforeBrokenConstraints) {
 
 TEST(Objective, OneFailedReplicateFailsTheCandidateAndSaysWhy) {
   const Request request = make_request(DesignFile(), 1, 0.4);
-  const Score value = score(target_of(2e5), {run(2e5), failed_evaluation(request, "unstable step")});
+  const Score value = score(target_of(2e5), {run(2e5), failed_evaluation("unstable step", request.replicate)});
   EXPECT_FALSE(value.valid);
   EXPECT_EQ(value.value, failed_score);
   EXPECT_EQ(value.failed, 1);
