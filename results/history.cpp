@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace perfora::results {
@@ -28,6 +29,12 @@ const std::vector<History::Column>& History::columns() {
       {"friction", "J/m", &History::friction},
       {"viscous", "J/m", &History::viscous},
       {"cundall", "J/m", &History::cundall},
+      {"steps", "", &History::steps, true, true},
+      {"broken_in_tension", "", &History::broken_in_tension, true, true},
+      {"largest_fragment", "", &History::largest_fragment, true, true},
+      {"largest_overlap", "", &History::largest_overlap, true, true},
+      {"largest_asymmetry", "Pa", &History::largest_asymmetry, true, true},
+      {"peak_passed", "", &History::peak_passed, true, true},
       {"platen_stress_bottom", "Pa", &History::platen_stress_bottom, true},
       {"platen_stress_top", "Pa", &History::platen_stress_top, true},
       {"wall_stress_left", "Pa", &History::wall_stress_left, true},
@@ -41,7 +48,7 @@ namespace {
 std::vector<const History::Column*> filled(const History& history) {
   std::vector<const History::Column*> columns;
   for (const History::Column& column : History::columns())
-    if (!(history.*column.values).empty()) columns.push_back(&column);
+    if (!column.internal && !(history.*column.values).empty()) columns.push_back(&column);
   return columns;
 }
 
@@ -49,6 +56,15 @@ std::vector<const History::Column*> filled(const History& history) {
 
 std::size_t History::filled_columns() const {
   return filled(*this).size();
+}
+
+History History::up_to(double strain, double row) const {
+  const auto end = std::upper_bound(strain_yy.begin(), strain_yy.end(), strain + 0.5 * row);
+  const auto kept = static_cast<std::size_t>(end - strain_yy.begin());
+  History shorter = *this;
+  for (const Column& column : columns())
+    if ((shorter.*column.values).size() > kept) (shorter.*column.values).resize(kept);
+  return shorter;
 }
 
 std::string history_csv(const History& history) {

@@ -17,6 +17,13 @@ struct History {
   std::vector<double> time;
   std::vector<double> rate;  ///< of the strain, mean since the last row, 1/s; 0 in the first
   std::vector<double> external_work, elastic_bonds, elastic_contacts, kinetic, damage, friction, viscous, cundall;
+  /// What the summary says of the end of a run, at each row: so that a longer run answers for a shorter one. In stored
+  /// histories, not in tables for people.
+  std::vector<double> steps, broken_in_tension;
+  std::vector<double> largest_fragment;   ///< area over that of all discs
+  std::vector<double> largest_overlap;    ///< so far, over <d>
+  std::vector<double> largest_asymmetry;  ///< so far, Pa
+  std::vector<double> peak_passed;        ///< 1 from the row on at which the first peak was known
   /// Normal force over the block's nominal edge; empty without platens or side walls.
   std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
 
@@ -26,10 +33,15 @@ struct History {
     const char* units;
     std::vector<double> History::*values;
     bool optional = false;  ///< left out of files where it is empty
+    bool internal = false;  ///< in result files only, not in tables for people
   };
   static const std::vector<Column>& columns();
   std::size_t rows() const { return strain_yy.size(); }
-  std::size_t filled_columns() const;  ///< columns that hold a number a row
+  std::size_t filled_columns() const;  ///< columns for people that hold a number a row
+  /// Whether the columns from `steps` to `peak_passed` are there (older files have none).
+  bool knows_ends() const { return rows() > 0 && peak_passed.size() == rows(); }
+  /// The rows up to `strain`, included when within half a `row` of it.
+  History up_to(double strain, double row) const;
 };
 
 /// The history as CSV: one line of names, then one line a row, 17 digits, SI (docs/user/formats.md). Columns that the

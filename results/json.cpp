@@ -151,9 +151,15 @@ json to_json(const Evaluation& evaluation, bool with_curve) {
   record.update(to_json(evaluation.pack));
   record.update(to_json(evaluation.summary));
   record["performance"] = to_json(evaluation.performance);
-  if (with_curve)
-    record["curve"] = {{"strain_yy", numbers(evaluation.curve.strain_yy)},
-                       {"stress_yy", numbers(evaluation.curve.stress_yy)}};
+  if (with_curve) {
+    json curve = json::object();
+    for (const History::Column& column : History::columns()) {
+      const std::vector<double>& values = evaluation.curve.*column.values;
+      const bool always = column.values == &History::strain_yy || column.values == &History::stress_yy;
+      if (always || !values.empty()) curve[column.name] = numbers(values);
+    }
+    record["curve"] = curve;
+  }
   return record;
 }
 
@@ -171,10 +177,10 @@ Evaluation evaluation_from_json(const json& record) {
   evaluation.summary.status = evaluation.status;
   evaluation.summary.reason = evaluation.reason;
   evaluation.performance = performance_from(record.at("performance"));
-  if (const auto curve = record.find("curve"); curve != record.end()) {
-    evaluation.curve.strain_yy = numbers_from(curve->at("strain_yy"));
-    evaluation.curve.stress_yy = numbers_from(curve->at("stress_yy"));
-  }
+  if (const auto curve = record.find("curve"); curve != record.end())
+    for (const History::Column& column : History::columns())
+      if (const auto values = curve->find(column.name); values != curve->end())
+        evaluation.curve.*column.values = numbers_from(*values);
   return evaluation;
 }
 

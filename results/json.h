@@ -19,7 +19,7 @@ nlohmann::json to_json(const PackSummary& summary);
 nlohmann::json to_json(const Summary& summary);
 nlohmann::json to_json(const Performance& performance);
 nlohmann::json to_json(const EffectiveSeeds& seeds);
-/// schema "perfora.evaluate/1"; `with_curve` adds strain and stress arrays.
+/// schema "perfora.evaluate/1"; `with_curve` adds the columns of its curve that are filled, as arrays.
 nlohmann::json to_json(const Evaluation& evaluation, bool with_curve);
 /// Throws nlohmann::json::exception or std::invalid_argument for anything but such a record.
 Evaluation evaluation_from_json(const nlohmann::json& record);

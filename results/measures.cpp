@@ -1,6 +1,8 @@
 // What is here: integrals and crossings of a sampled curve, piecewise linear between rows.
 #include "results/measures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -145,6 +147,10 @@ std::vector<CurvePeak> peaks_behind(const std::vector<double>& strain, const std
 }
 
 }  // namespace
+
+std::string reached_text(double strain) {
+  return fmt::format("reached strain {:.6g}", strain);
+}
 
 double energy_residual(const History& history, double from_strain) {
   double largest_work = 0.0, worst = 0.0;

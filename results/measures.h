@@ -1,6 +1,8 @@
 // What is here: the numbers read from a compression curve. What is not: the run.
 #pragma once
 
+#include <string>
+
 #include "results/history.h"
 #include "results/summary.h"
 
@@ -12,6 +14,12 @@ namespace perfora::results {
 /// history does not reach is NaN. first_peak_* must be set. `reference_area`: of the undeformed cell, m2.
 void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
                    Summary& summary);
+
+/// The ledger is judged from this strain on: before it the work is too small to divide by.
+inline constexpr double residual_from_strain = 0.002;
+
+/// Why a completed run ended: "reached strain 0.6".
+std::string reached_text(double strain);
 
 /// Largest |external work - sum of all energies| over the rows so far, over the largest work so far; rows before
 /// `from_strain` are left out.

@@ -33,8 +33,6 @@ constexpr double peak_passed_share =
 constexpr double latest_peak =
     10.0;  // times the estimated peak strain: a later fall is a serration of the rubble, not the first peak
 constexpr double least_peak_strain = 2e-4;  // rows before that are too close to zero stress to tell a fall
-constexpr double residual_from_strain =
-    0.002;  // the ledger is judged from here on (before it the work is too small to divide by)
 constexpr double unstable_overlap = 1.0;  // overlap over <d> at which discs pass through each other: the run has failed
 constexpr std::int64_t steps_between_looks = 64;  // at the clock and the request to stop
 
@@ -152,7 +150,7 @@ class Run {
       if (steps % steps_between_looks == 0 && look()) return;
     }
     response_.summary.status = results::RunStatus::completed;
-    response_.summary.reason = fmt::format("reached strain {:.6g}", simulation_->strain());
+    response_.summary.reason = results::reached_text(simulation_->strain());
   }
 
   /// At the clock, the request to stop and the checkpoint; true: stop here.
@@ -210,12 +208,18 @@ class Run {
     h.cundall.push_back(energy.cundall);
     add_pressures();
     simulation_->reset_row();
+    find_peak(stress.yy, strain, energy);
+    add_ends();
+  }
+
+  /// The first peak is known once a row has fallen far enough below the largest so far.
+  void find_peak(double stress, double strain, const Ledger& energy) {
     if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
-      if (stress.yy > largest_row_stress_) {
-        largest_row_stress_ = stress.yy;
+      if (stress > largest_row_stress_) {
+        largest_row_stress_ = stress;
         largest_row_strain_ = strain;
       }
-      if (strain > least_peak_strain && stress.yy < peak_passed_share * largest_row_stress_ &&
+      if (strain > least_peak_strain && stress < peak_passed_share * largest_row_stress_ &&
           largest_row_strain_ < latest_peak * setup_.loading.peak_strain) {
         simulation_->freeze_peak();
         peak_just_passed_ = true;
@@ -223,6 +227,26 @@ class Run {
         progress_.kinetic_ratio = energy.kinetic / energy.elastic_bonds;
       }
     }
+  }
+
+  /// What the summary would say if the run ended here. A run resumed from a checkpoint without these columns goes on
+  /// without them.
+  void add_ends() {
+    results::History& h = progress_.history;
+    if (h.peak_passed.size() + 1 != h.rows()) return;
+    h.steps.push_back(static_cast<double>(simulation_->steps()));
+    h.broken_in_tension.push_back(static_cast<double>(broken_in_tension()));
+    h.largest_fragment.push_back(fragments_.largest_fraction);
+    h.largest_overlap.push_back(simulation_->largest_overlap() / request_.mean_diameter);
+    h.largest_asymmetry.push_back(simulation_->largest_asymmetry());
+    h.peak_passed.push_back(simulation_->peak_frozen() ? 1.0 : 0.0);
+  }
+
+  std::int64_t broken_in_tension() {
+    const std::vector<results::BreakEvent>& events = simulation_->events();
+    for (; counted_events_ < events.size(); ++counted_events_)
+      if (events[counted_events_].mode == results::BreakMode::tension) ++counted_in_tension_;
+    return counted_in_tension_;
   }
 
   /// Mean pressures on platens and side walls; their columns exist only where such walls are.
@@ -279,16 +303,14 @@ class Run {
     const double area = request_.layout->width * request_.layout->height;
     results::measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
     s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
-    s.broken_in_tension =
-        std::count_if(simulation_->events().begin(), simulation_->events().end(),
-                      [](const results::BreakEvent& e) { return e.mode == results::BreakMode::tension; });
+    s.broken_in_tension = broken_in_tension();
     s.broken_in_shear = s.broken_bonds - s.broken_in_tension;
     if (fragments_.label.empty() || fragments_at_breaks_ != s.broken_bonds)
       fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
     s.fragments = fragments_.count;
     s.largest_fragment_fraction = fragments_.largest_fraction;
     s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
-    s.energy_residual = results::energy_residual(h, residual_from_strain);
+    s.energy_residual = results::energy_residual(h, results::residual_from_strain);
     s.stress_asymmetry =
         simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
     const double modulus = results::loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
@@ -349,6 +371,8 @@ class Run {
   Response response_;
   Fragments fragments_;
   std::int64_t fragments_at_breaks_ = -1;
+  std::size_t counted_events_ = 0;
+  std::int64_t counted_in_tension_ = 0;
   double largest_row_stress_ = 0.0, largest_row_strain_ = 0.0;
   bool peak_just_passed_ = false;
   Clock::time_point started_, last_checkpoint_;

@@ -9,6 +9,7 @@
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
 #include "optimize/evaluate/packing_cache.h"
+#include "results/file_parts.h"
 #include "results/formats.h"
 #include "solver/bond_network.h"
 
@@ -161,8 +162,7 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
     throw io::InputError(
         {run_file.string(), 0, ""}, "holds a finished run of another design, strain, seed or program version", "",
         "resume with the design and flags it was made with, start anew with --force, or name another output");
-  evaluation.curve.strain_yy = file.doubles("/history/strain_yy");
-  evaluation.curve.stress_yy = file.doubles("/history/stress_yy");
+  evaluation.curve = results::read_history(file, "/history");
   return evaluation;
 }
 

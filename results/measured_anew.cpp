@@ -1,0 +1,46 @@
+// What is here: shortening a history and measuring it again. What is not: the measures (measures.cpp).
+#include "results/measured_anew.h"
+
+#include <cmath>
+
+#include "results/measures.h"
+
+namespace perfora::results {
+namespace {
+
+/// Everything of the summary that belongs to the end of the run, taken from the last row.
+void end_with_last_row(const History& history, Summary& summary) {
+  const auto whole = [](const std::vector<double>& column) { return static_cast<std::int64_t>(column.back()); };
+  summary.final_strain = history.strain_yy.back();
+  summary.reason = reached_text(summary.final_strain);
+  summary.steps = whole(history.steps);
+  summary.broken_bonds = whole(history.broken_bonds);
+  summary.broken_in_tension = whole(history.broken_in_tension);
+  summary.broken_in_shear = summary.broken_bonds - summary.broken_in_tension;
+  summary.fragments = whole(history.fragments);
+  summary.largest_fragment_fraction = history.largest_fragment.back();
+  summary.max_overlap_in_run = history.largest_overlap.back();
+  summary.energy_residual = energy_residual(history, residual_from_strain);
+  summary.stress_asymmetry = history.largest_asymmetry.back() / summary.first_peak_stress;
+  measure_rate(history, summary);
+}
+
+}  // namespace
+
+std::optional<Evaluation> measured_anew(const Evaluation& stored, const MeasuringFrame& frame) {
+  const History& full = stored.curve;
+  if (stored.status != RunStatus::completed || full.rows() == 0 || full.cundall.size() != full.rows()) return {};
+  Evaluation evaluation = stored;
+  evaluation.curve = full.up_to(frame.last_row, frame.row);
+  const History& history = evaluation.curve;
+  if (history.rows() == 0 || std::abs(history.strain_yy.back() - frame.last_row) > 0.5 * frame.row) return {};
+  if (history.rows() < full.rows()) {
+    if (!full.knows_ends() || !(history.peak_passed.back() > 0.0)) return {};
+    end_with_last_row(history, evaluation.summary);
+    evaluation.reason = evaluation.summary.reason;
+  }
+  measure_curve(history, frame.plateau_start, frame.plateau_end, frame.reference_area, evaluation.summary);
+  return evaluation;
+}
+
+}  // namespace perfora::results
