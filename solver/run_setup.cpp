@@ -21,6 +21,11 @@ void refuse_missing_simd(SimdChoice simd) {
 
 }  // namespace
 
+std::int64_t rows_until(double until, double interval) {
+  constexpr double rounding = 1e-9;
+  return static_cast<std::int64_t>(std::ceil(until / interval - rounding));
+}
+
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout) {
   LoadedBlock block{layout.width, layout.height, 0.0};
   for (const geometry::Perforation& hole : layout.perforations)
@@ -52,8 +57,7 @@ RunSetup set_up_run(const RunRequest& request) {
   const double longest = std::min(options.dynamics.step_factor * s.critical_step,
                                   contact_critical_step(s.masses, options.material, options.dynamics.cundall_damping));
   s.plan = plan_loading(s.loading, options.loading, loaded_block(*request.layout), interval, longest);
-  constexpr double rounding = 1e-9;
-  s.rows = static_cast<std::int64_t>(std::ceil(options.loading.until / interval - rounding));
+  s.rows = rows_until(options.loading.until, interval);
   return s;
 }
 

@@ -23,6 +23,10 @@ struct RunSetup {
   std::int64_t rows = 0;
 };
 
+/// History rows, `interval` apart, of a run to the engineering strain `until`: it ends with the first one there or
+/// beyond.
+std::int64_t rows_until(double until, double interval);
+
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout);
 
 /// Bonds the request's packing and chooses rate and step (docs/user/theory.md, "Motion"). Throws io::InputError when

@@ -26,11 +26,11 @@ constexpr const char* runs_folder = "runs";
 /// The key that the request of a journal's evaluation has today: the program that wrote it may have known fewer keys
 /// of the design, or put more into a request's key. One of other results, or that is no design of this program, keeps
 /// the key it was written with, which nobody asks for.
-std::string key_of(const json& record, bool same_results) {
+std::string key_of(const json& record, bool same_results, DesignTexts& designs) {
   const std::string written = record.at("key").get<std::string>();
   if (!same_results || !record.contains("request")) return written;
   try {
-    return request_from_json(record.at("request")).key();
+    return request_from_json(record.at("request"), &designs).key();
   } catch (const io::InputError&) {
     return written;
   }
@@ -68,11 +68,12 @@ results::History coarse_curve(const results::History& history) {
 EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&)>& seen)
     : options_(std::move(options)) {
   journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
-  int version = 0;  // of the events that follow
+  int version = 0;      // of the events that follow
+  DesignTexts designs;  // replicates share theirs
   for (const std::string& text : journal_->events()) {
     const json record = json::parse(text);
     if (record.value("event", "") == evaluation_event) {
-      take_evaluation(key_of(record, version == results_version), record);
+      take_evaluation(key_of(record, version == results_version, designs), record);
       continue;
     }
     version = record.value("results_version", version);

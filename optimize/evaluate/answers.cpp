@@ -1,12 +1,13 @@
 // What is here: which evaluation answers which request. What is not: the key of a request (request.cpp).
 #include "optimize/evaluate/answers.h"
 
+#include <cmath>
 #include <utility>
+
+#include "solver/run_setup.h"
 
 namespace perfora::optimize {
 namespace {
-
-constexpr double rounding = 1e-9;  // of the strain of a row
 
 /// Both answer the same requests.
 bool alike(const Evaluation& a, const Evaluation& b) {
@@ -29,12 +30,13 @@ void Answers::add(const std::string& key, Evaluation evaluation) {
 
 bool is_answer(const Evaluation& evaluation, const Request& request) {
   const results::Summary& summary = evaluation.summary;
-  const double wanted = request.strain();
-  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > wanted + rounding);
-  const solver::MeasureOptions& measures = request.design->solver.measures;
-  return summary.final_strain >= wanted - rounding &&
-         summary.final_strain < wanted + request.design->solver.output.history_interval - rounding &&
-         summary.plateau_start == measures.plateau_start && summary.plateau_end == measures.plateau_end;
+  const solver::SolverOptions& options = request.design->solver;
+  const double row = options.output.history_interval;
+  const double end = row * static_cast<double>(solver::rows_until(request.strain(), row));
+  // Rows stand at multiples of the interval up to rounding.
+  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > end + 0.5 * row);
+  return std::abs(summary.final_strain - end) < 0.5 * row && summary.plateau_start == options.measures.plateau_start &&
+         summary.plateau_end == options.measures.plateau_end;
 }
 
 const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& known) {

@@ -29,9 +29,9 @@ class Answers {
   Stored stored_;
 };
 
-/// Whether an evaluation of the request's key is what the request asks for: it reached the strain, no more than a row
-/// beyond it, and its plateau was measured over the design's window. A failed one is, unless it failed beyond the
-/// strain that is asked for.
+/// Whether an evaluation of the request's key is what the request asks for: its run ended with the same row, and its
+/// plateau was measured over the design's window. A failed one is, unless it failed beyond the strain that is asked
+/// for.
 bool is_answer(const Evaluation& evaluation, const Request& request);
 
 /// The evaluation that answers `request`, whose key is `key`; nullptr where none does, so that it has to be evaluated.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -45,8 +46,11 @@ Request make_request(const DesignFile& design, int replicate, double until = 0.0
 /// {"design": TOML text, "replicate", "until"}, with "fidelity" where it has a name, "run_file" and "frames" where a
 /// run file is wanted.
 nlohmann::json to_json(const Request& request);
-/// Throws io::InputError when the text is no design of this program.
-Request request_from_json(const nlohmann::json& record);
+/// Designs by their text.
+using DesignTexts = std::map<std::string, std::shared_ptr<const Design>>;
+/// Throws io::InputError when the text is no design of this program. With `known`, a text that stands there is not read
+/// again, and one that does not is added.
+Request request_from_json(const nlohmann::json& record, DesignTexts* known = nullptr);
 
 /// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
 /// Evaluation with status `failed` and the reason, so that a search goes on.
