@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace perfora::results {
@@ -45,6 +46,9 @@ const std::vector<History::Column>& History::columns() {
 
 namespace {
 
+constexpr double curve_step = 0.005;
+constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
+
 std::vector<const History::Column*> filled(const History& history) {
   std::vector<const History::Column*> columns;
   for (const History::Column& column : History::columns())
@@ -65,6 +69,27 @@ History History::up_to(double strain, double row) const {
   for (const Column& column : columns())
     if ((shorter.*column.values).size() > kept) (shorter.*column.values).resize(kept);
   return shorter;
+}
+
+History coarse_curve(const History& history) {
+  History coarse;
+  double strain = 0.0, stress = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < history.rows(); ++k) {
+    strain += history.strain_yy[k];
+    stress += history.stress_yy[k];
+    ++count;
+    const bool last = k + 1 == history.rows();
+    const bool fine = history.strain_yy[k] < fine_until;
+    if (!last && !fine &&
+        std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
+      continue;
+    coarse.strain_yy.push_back(strain / count);
+    coarse.stress_yy.push_back(stress / count);
+    strain = stress = 0.0;
+    count = 0;
+  }
+  return coarse;
 }
 
 std::string history_csv(const History& history) {

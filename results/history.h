@@ -40,9 +40,15 @@ struct History {
   std::size_t filled_columns() const;  ///< columns for people that hold a number a row
   /// Whether the columns from `steps` to `peak_passed` are there (older files have none).
   bool knows_ends() const { return rows() > 0 && peak_passed.size() == rows(); }
+  /// Whether every column that a run fills is there.
+  bool is_full() const { return rows() > 0 && cundall.size() == rows(); }
   /// The rows up to `strain`, included when within half a `row` of it.
   History up_to(double strain, double row) const;
 };
+
+/// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
+/// 3 %. What journals keep.
+History coarse_curve(const History& history);
 
 /// The history as CSV: one line of names, then one line a row, 17 digits, SI (docs/user/formats.md). Columns that the
 /// run has not got are left out.

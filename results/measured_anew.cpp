@@ -29,7 +29,7 @@ void end_with_last_row(const History& history, Summary& summary) {
 
 std::optional<Evaluation> measured_anew(const Evaluation& stored, const MeasuringFrame& frame) {
   const History& full = stored.curve;
-  if (stored.status != RunStatus::completed || full.rows() == 0 || full.cundall.size() != full.rows()) return {};
+  if (stored.status != RunStatus::completed || !full.is_full()) return {};
   Evaluation evaluation = stored;
   evaluation.curve = full.up_to(frame.last_row, frame.row);
   const History& history = evaluation.curve;

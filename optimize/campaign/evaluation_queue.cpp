@@ -10,6 +10,8 @@
 
 #include "io/journal.h"
 #include "io/text.h"
+#include "results/history_file.h"
+#include "results/json.h"
 
 namespace perfora::optimize {
 namespace {
@@ -18,10 +20,9 @@ using nlohmann::json;
 
 /// How often a stop is looked for while evaluations run.
 constexpr auto look_interval = std::chrono::milliseconds(200);
-constexpr double curve_step = 0.005;
-constexpr double fine_until = 0.03;  // rows up to here stay as they are: the first peak is narrow
 constexpr const char* evaluation_event = "evaluation";
 constexpr const char* runs_folder = "runs";
+constexpr const char* histories_folder = "histories";
 
 /// The key that the request of a journal's evaluation has today: the program that wrote it may have known fewer keys
 /// of the design, or put more into a request's key. One of other results, or that is no design of this program, keeps
@@ -44,30 +45,14 @@ int workers_for(int asked, int of_file, std::int64_t together) {
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
-results::History coarse_curve(const results::History& history) {
-  results::History coarse;
-  double strain = 0.0, stress = 0.0;
-  int count = 0;
-  for (std::size_t k = 0; k < history.rows(); ++k) {
-    strain += history.strain_yy[k];
-    stress += history.stress_yy[k];
-    ++count;
-    const bool last = k + 1 == history.rows();
-    const bool fine = history.strain_yy[k] < fine_until;
-    if (!last && !fine &&
-        std::floor(history.strain_yy[k + 1] / curve_step) == std::floor(history.strain_yy[k] / curve_step))
-      continue;
-    coarse.strain_yy.push_back(strain / count);
-    coarse.stress_yy.push_back(stress / count);
-    strain = stress = 0.0;
-    count = 0;
-  }
-  return coarse;
-}
-
 EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&)>& seen)
     : options_(std::move(options)) {
   journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
+  answers_.set_histories([folder = options_.folder](const std::string& key) -> std::optional<results::History> {
+    const std::filesystem::path file = folder / history_file(key);
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    return results::read_history_file(file);
+  });
   int version = 0;      // of the events that follow
   DesignTexts designs;  // replicates share theirs
   for (const std::string& text : journal_->events()) {
@@ -93,8 +78,25 @@ void EvaluationQueue::take_evaluation(const std::string& key, const json& record
   retries_ += record.value("attempts", 1) - 1;
 }
 
+void EvaluationQueue::keep_history(const std::string& key, const Evaluation& evaluation) const {
+  const results::History& history = evaluation.curve;
+  if (evaluation.status != results::RunStatus::completed || !history.is_full()) return;
+  const auto [first, last] = answers_.of(key);
+  const bool longer_known = std::any_of(first, last, [&](const auto& stored) {
+    return stored.second.summary.final_strain > evaluation.summary.final_strain;
+  });
+  if (longer_known) return;
+  std::filesystem::create_directories(options_.folder / histories_folder);
+  results::write_history_file(options_.folder / history_file(key), history);
+}
+
+std::filesystem::path EvaluationQueue::history_file(const std::string& key) {
+  return std::filesystem::path(histories_folder) / (key + ".h5");
+}
+
 void EvaluationQueue::record(const Asked& asked, Answer answer) {
-  answer.evaluation.curve = coarse_curve(answer.evaluation.curve);
+  keep_history(answer.key, answer.evaluation);
+  answer.evaluation.curve = results::coarse_curve(answer.evaluation.curve);
   const json event = {{"event", evaluation_event},
                       {"key", answer.key},
                       {"candidate", asked.label},

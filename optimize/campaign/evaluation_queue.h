@@ -73,12 +73,16 @@ class EvaluationQueue {
   std::size_t in_flight() const { return in_flight_.size(); }
   double simulated_seconds() const { return simulated_seconds_; }  ///< of all evaluations in the journal
   int retries() const { return retries_; }                         ///< evaluations that were asked twice
+  /// DIR/histories/KEY.h5, relative to the folder: the full history, from which the evaluation can be measured anew.
+  static std::filesystem::path history_file(const std::string& key);
+
   /// "; at most 5 min left" for `remaining` evaluations like those so far; empty where nothing can be said.
   std::string time_left(std::int64_t remaining) const;
 
  private:
   void take_evaluation(const std::string& key, const nlohmann::json& record);
   void record(const Asked& asked, Answer answer);
+  void keep_history(const std::string& key, const Evaluation& evaluation) const;
   void submit(Executor& executor, const Asked& asked) const;
   void drop_run_file(const Request& request) const;
 
@@ -94,9 +98,5 @@ class EvaluationQueue {
 /// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
 /// be under way together.
 int workers_for(int asked, int of_file, std::int64_t together);
-
-/// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
-/// 3 %. What the journal keeps.
-results::History coarse_curve(const results::History& history);
 
 }  // namespace perfora::optimize

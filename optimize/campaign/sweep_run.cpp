@@ -17,8 +17,8 @@ namespace {
 using nlohmann::json;
 
 /// Everything a sweep writes into its folder; --force removes these and nothing else.
-constexpr const char* own_files[] = {"journal.jsonl", "result.json", "cases.csv",    "runs.csv",
-                                     "curves.csv",    "sweep.png",   "collapse.png", "runs"};
+constexpr const char* own_files[] = {"journal.jsonl", "result.json",  "cases.csv", "runs.csv", "curves.csv",
+                                     "sweep.png",     "collapse.png", "runs",      "histories"};
 
 }  // namespace
 

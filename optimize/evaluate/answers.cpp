@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "results/measured_anew.h"
 #include "solver/run_setup.h"
 
 namespace perfora::optimize {
@@ -39,11 +40,37 @@ bool is_answer(const Evaluation& evaluation, const Request& request) {
          summary.plateau_end == options.measures.plateau_end;
 }
 
+const Evaluation* Answers::measured_anew(const Request& request, const std::string& key) const {
+  const auto [known, known_end] = derived_.equal_range(key);
+  for (auto it = known; it != known_end; ++it)
+    if (is_answer(it->second, request)) return &it->second;
+  if (!histories_) return nullptr;
+  const auto [first, last] = of(key);
+  if (first == last) return nullptr;
+  const std::optional<results::History> history = histories_(key);
+  if (!history || history->rows() == 0) return nullptr;
+  const Design& design = *request.design;
+  const double row = design.solver.output.history_interval;
+  const results::MeasuringFrame frame{design.solver.measures.plateau_start, design.solver.measures.plateau_end,
+                                      row * static_cast<double>(solver::rows_until(request.strain(), row)), row,
+                                      design.layout.width * design.layout.height};
+  for (auto it = first; it != last; ++it) {
+    Evaluation stored = it->second;
+    if (stored.summary.final_strain != history->strain_yy.back()) continue;
+    stored.curve = *history;
+    std::optional<Evaluation> anew = results::measured_anew(stored, frame);
+    if (!anew || !is_answer(*anew, request)) continue;
+    anew->curve = results::coarse_curve(anew->curve);
+    return &derived_.emplace(key, std::move(*anew))->second;
+  }
+  return nullptr;
+}
+
 const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& known) {
   const auto [first, last] = known.of(key);
   for (auto it = first; it != last; ++it)
     if (is_answer(it->second, request)) return &it->second;
-  return nullptr;
+  return known.measured_anew(request, key);
 }
 
 }  // namespace perfora::optimize

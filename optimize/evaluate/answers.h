@@ -3,12 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "optimize/evaluate/request.h"
 
 namespace perfora::optimize {
+
+/// The full history of the longest evaluation of a key; nothing where none was kept.
+using Histories = std::function<std::optional<results::History>(const std::string& key)>;
 
 /// Evaluations by the key of their request. A key may have several, of other strains and windows. Pointers to them stay
 /// valid until one of the same key, strain and window replaces it.
@@ -25,8 +30,16 @@ class Answers {
     return stored_.equal_range(key);
   }
 
+  /// Where histories come from, so that one evaluation answers for other windows and smaller strains.
+  void set_histories(Histories histories) { histories_ = std::move(histories); }
+  /// The evaluation that a stored one of `key` gives for the window and strain of `request`, without a run; nullptr
+  /// where what is kept does not tell. It is remembered.
+  const Evaluation* measured_anew(const Request& request, const std::string& key) const;
+
  private:
   Stored stored_;
+  Histories histories_;
+  mutable Stored derived_;  ///< measured anew from a stored one: what was asked before costs nothing
 };
 
 /// Whether an evaluation of the request's key is what the request asks for: its run ended with the same row, and its
@@ -34,7 +47,8 @@ class Answers {
 /// for.
 bool is_answer(const Evaluation& evaluation, const Request& request);
 
-/// The evaluation that answers `request`, whose key is `key`; nullptr where none does, so that it has to be evaluated.
+/// The evaluation that answers `request`, whose key is `key`: a stored one, or one measured anew from it; nullptr where
+/// none does, so that it has to be evaluated.
 const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& answers);
 
 }  // namespace perfora::optimize

@@ -17,9 +17,9 @@ namespace {
 using nlohmann::json;
 
 /// Everything a study writes into its folder; --force removes these and nothing else.
-constexpr const char* own_files[] = {"journal.jsonl",   "result.json", "best.toml",    "best.h5",
-                                     "best.csv",        "best.xdmf",   "best.xdmf.h5", "best.part",
-                                     "evaluations.csv", "best.png",    "study.png",    "runs"};
+constexpr const char* own_files[] = {"journal.jsonl", "result.json",  "best.toml", "best.h5",         "best.csv",
+                                     "best.xdmf",     "best.xdmf.h5", "best.part", "evaluations.csv", "best.png",
+                                     "study.png",     "runs",         "histories"};
 
 /// Keys that may differ on resume: they only say how far to go, and the points on the way there stay the same.
 bool may_change(const std::string& key) {

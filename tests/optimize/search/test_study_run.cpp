@@ -309,7 +309,7 @@ TEST(CoarseCurve, AveragesOverStepsOfStrain) {
     history.strain_yy.push_back(0.00025 + 0.0005 * k);  // Ten rows a step of 0.5 %.
     history.stress_yy.push_back(k);
   }
-  const auto coarse = coarse_curve(history);
+  const auto coarse = results::coarse_curve(history);
   ASSERT_EQ(coarse.rows(), 60U + 4U);  // as it is to 3 %, then a point a step
   for (std::size_t k = 0; k < 60; ++k) EXPECT_EQ(coarse.stress_yy[k], static_cast<double>(k));
   for (std::size_t k = 0; k < 4; ++k) {
