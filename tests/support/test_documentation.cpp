@@ -118,15 +118,29 @@ TEST(Documentation, BrokenLinksAreFound) {
   EXPECT_THAT(broken_links(source / "page.md", text), ::testing::ElementsAre("no.md", "README.md#no"));
 }
 
-TEST(Documentation, PagesThatSourcesNameExist) {
-  const std::regex name("docs/[A-Za-z0-9_/-]+\\.md");
-  int found = 0;
+/// The text in one line: marks of comments and joints of string literals left out, so that a name may be wrapped.
+std::string unwrapped(const std::string& text) {
+  std::string joined = std::regex_replace(text, std::regex("\\n\\s*(///?<?|#)? *"), " ");
+  joined = std::regex_replace(joined, std::regex("\\\\\""), "\"");
+  return joined;
+}
+
+TEST(Documentation, PagesAndSectionsThatSourcesNameExist) {
+  const std::regex name("docs/[A-Za-z0-9_/-]+\\.md(,? \"([^\"]+)\")?");
+  int pages = 0, sections = 0;
   for (const auto& file : project_files({".h", ".cpp", ".md", ".toml", ".py", ".txt"})) {
-    const std::string text = read_text(file);
-    for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++found)
-      EXPECT_TRUE(fs::exists(source / it->str())) << file << " names " << it->str();
+    const std::string text = unwrapped(read_text(file));
+    for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++pages) {
+      const std::string page = it->str().substr(0, it->str().find(".md") + 3), section = (*it)[2];
+      EXPECT_TRUE(fs::exists(source / page)) << file << " names " << page;
+      if (section.empty()) continue;
+      EXPECT_NE(read_text(source / page).find("# " + section + "\n"), std::string::npos)
+          << file << " names the section \"" << section << "\" of " << page;
+      ++sections;
+    }
   }
-  EXPECT_GT(found, 20);
+  EXPECT_GT(pages, 20);
+  EXPECT_GT(sections, 10);
 }
 
 }  // namespace
