@@ -48,7 +48,7 @@ int calibrate(const CalibrateFlags& flags) {
   print_record(record, flags.common.json);
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
   if (result.status == results::RunStatus::stopped)
-    io::log_warning("stopped; finished tests are kept; go on with the same command and --resume");
+    io::log_warning("stopped; finished tests are kept; continue with the same command and --resume");
   else
     io::log_info("written: " + options.folder.string());
   return exit_code_of(result.status);
@@ -63,7 +63,7 @@ void add_calibrate(CLI::App& program, int& exit_code) {
   command->add_option("CALIBRATION", flags->file, "Calibration file (TOML)")->required();
   command->add_option("-o,--output", flags->output, "Folder to write (default: CALIBRATION's name + -calibration)")
       ->type_name("DIR");
-  command->add_flag("--resume", flags->resume, "Go on with a calibration that was stopped or killed");
+  command->add_flag("--resume", flags->resume, "Continue a calibration that was stopped or killed");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
 }

@@ -1,4 +1,4 @@
-// What is here: the list of subcommands; each function adds one to the program and, when it is the one asked for,
+// What is here: the list of subcommands; each function adds one to the program and, when it is the one requested,
 // stores its exit code. What is not: what they do (one file a subcommand), shared flags (common.h).
 #pragma once
 

@@ -1,4 +1,5 @@
-// What is here: see common.h. What is not: the work of any subcommand.
+// What is here: the flags that subcommands share turned into settings of the program, answers printed as JSON, stop
+// signals caught. What is not: the work of any subcommand.
 #include "app/common.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What is here: `perfora correlate`: do cheap sweeps rank the same cases as a dear one does? What is not: the
+// What is here: `perfora correlate`: do cheap sweeps rank the same cases as an expensive one does? What is not: the
 // comparison (optimize/campaign/sweep_record.h), drawing (report/).
 #include <fmt/format.h>
 

@@ -53,7 +53,7 @@ void say_how_it_ended(results::RunStatus status, const std::string& reason, cons
                       const std::string& again) {
   if (status == results::RunStatus::completed) io::log_info("written: " + where);
   if (status == results::RunStatus::stopped)
-    io::log_warning(fmt::format("stopped ({}); the state is kept; go on with {}", reason, again));
+    io::log_warning(fmt::format("stopped ({}); the state is kept; continue with {}", reason, again));
   if (status == results::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
@@ -75,7 +75,7 @@ std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluatio
         io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
   if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
     warnings.push_back(
-        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} asked for: the block is stiffer "
+        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} requested: the block is stiffer "
                     "or weaker than "
                     "estimated; raise loading.transits",
                     s.transits_before_peak, loading.transits));
@@ -194,7 +194,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
       ->type_name("STRAIN");
   command->add_flag("--elastic", flags->elastic,
                     "No run: the moduli of the block and where it yields first, in seconds (file: DESIGN-elastic.h5)");
-  command->add_flag("--resume", flags->resume, "Go on with a run or an ensemble that was stopped or killed");
+  command->add_flag("--resume", flags->resume, "Continue a run or an ensemble that was stopped or killed");
   command
       ->add_option("--replicates", flags->replicates,
                    "Evaluate N replicates: other packings and strength fields of the same design")

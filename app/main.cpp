@@ -24,7 +24,7 @@ int run(int argc, char** argv) {
   program.footer(
       "perfora SUBCOMMAND --help says more. Exit codes: 0 done, 1 usage or input, 2 numerical failure, 3 internal "
       "error,\n"
-      "75 stopped by a signal or a time limit with a checkpoint written (go on with --resume).");
+      "75 stopped by a signal or a time limit with a checkpoint written (continue with --resume).");
   app::add_pack(program, exit_code);
   app::add_evaluate(program, exit_code);
   app::add_test(program, exit_code);

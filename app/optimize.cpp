@@ -193,7 +193,7 @@ int optimize_study(const OptimizeFlags& flags) {
   print_record(optimize::to_json(run), flags.common.json);
   if (status == results::RunStatus::stopped)
     io::log_warning(
-        fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
+        fmt::format("stopped; what is finished is kept in {}; continue with --resume", options.folder.string()));
   else
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{})", options.folder.string(),
                              run.plan().best ? ", best.toml, pictures study.png and best.png" : ""));
@@ -208,7 +208,7 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command->add_option("STUDY", flags->study, "Study file (TOML)")->required();
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")
       ->type_name("DIR");
-  command->add_flag("--resume", flags->resume, "Go on with a study that was stopped or killed");
+  command->add_flag("--resume", flags->resume, "Continue a study that was stopped or killed");
   add_workers_flag(*command, flags->workers, "study");
   command->add_flag("--no-run-file", flags->no_run_file,
                     "Do not run the best design once more for best.h5 and best.png");

@@ -1,4 +1,5 @@
-// What is here: see outputs.h.
+// What is here: the check that an output may be written, and the CSV and XDMF written beside a run file. What is not:
+// the run file itself (results/run_file.h).
 #include "app/outputs.h"
 
 #include <array>
@@ -29,7 +30,7 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
   if (resume) return;
   if (fs::exists(part) && !force)
     throw io::InputError({part.string(), 0, ""}, "holds a run that did not end", "",
-                         "--resume goes on with it, --force throws it away, or name another output with -o");
+                         "--resume continues it, --force throws it away, or name another output with -o");
   // Both go, or --resume would find the old run's end beside the new one's beginning.
   fs::remove_all(part);
   fs::remove(run_file);

@@ -30,8 +30,8 @@ std::string format_of(const fs::path& file) {
   return io::Hdf5Reader(file).attribute_text("/", "format");
 }
 
-/// The keys of a design that are not at their defaults, without seeds and what is written: the same for runs that only
-/// luck tells apart, also where a program that knew fewer keys made one of them.
+/// The keys of a design that are not at their defaults, without seeds and what is written: the same for runs that
+/// differ only by chance, also where a program that knew fewer keys made one of them.
 std::string design_of(const results::RunResult& run) {
   try {
     optimize::DesignFile design = optimize::DesignFile::from_toml(run.provenance.config, run.path.string());

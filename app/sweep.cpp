@@ -158,7 +158,7 @@ int sweep_designs(const SweepFlags& flags) {
   print_record(record, flags.common.json);
   if (run.status() == results::RunStatus::stopped)
     io::log_warning(
-        fmt::format("stopped; what is finished is kept in {}; go on with --resume", options.folder.string()));
+        fmt::format("stopped; what is finished is kept in {}; continue with --resume", options.folder.string()));
   else
     io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
                              options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));
@@ -174,7 +174,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: SWEEP's name + -result)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume,
-                    "Go on with a sweep that was stopped, killed or extended; finished runs are kept");
+                    "Continue a sweep that was stopped, killed or extended; finished runs are kept");
   add_only_flag(*command, flags->only, ", and the design itself where the sweep has it as a case");
   add_workers_flag(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);

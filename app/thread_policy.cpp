@@ -1,4 +1,4 @@
-// What is here: see thread_policy.h.
+// What is here: the program started again with GOMP_SPINCOUNT set, which libgomp reads only once, at the start.
 #include "app/thread_policy.h"
 
 #include <stdlib.h>

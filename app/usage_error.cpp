@@ -1,4 +1,4 @@
-// What is here: see usage_error.h.
+// What is here: errors of CLI11 rewritten as one sentence that names the nearest flag.
 #include "app/usage_error.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What is here: see workers.h.
+// What is here: worker processes started as `perfora worker` with the flags of the command that needs them.
 #include "app/workers.h"
 
 #include <fmt/format.h>

@@ -29,7 +29,7 @@ constexpr std::int64_t minimum_discs = 16;
 /// The cell must hold this many of the largest discs (as large as they are at jamming) along each side.
 constexpr double largest_discs_along_a_side = 3.0;
 /// The packing that estimates the jamming fraction: its standard deviation over seeds is about 0.001 at this size, and
-/// the fraction does not depend on the seed of the packing asked for, so that all replicates have equally many discs.
+/// the fraction does not depend on the seed of the packing requested, so that all replicates have equally many discs.
 constexpr std::int64_t pilot_discs = 4000;
 constexpr std::uint64_t pilot_seed = 1;
 /// Neighbours at the start share their sizes out evenly: each block of this many along the Hilbert curve has one disc

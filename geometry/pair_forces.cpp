@@ -1,5 +1,6 @@
-// What is here: see pair_forces.h. Vectors of eight floats (GCC vector extensions: the same lanes, and IEEE operations
-// only, so the bits do not depend on the instruction set). What is not: any choice of pairs.
+// What is here: forces and energy of overlapping pairs, and the moves of the minimiser, eight at a time. Vectors of
+// eight floats (GCC vector extensions: the same lanes, and IEEE operations only, so the bits do not depend on the
+// instruction set). What is not: any choice of pairs.
 #include "geometry/pair_forces.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is here: see pair_lists.h.
+// What is here: candidate pairs found by cells, and the near pairs among them laid out for the force loop.
 // What is not: the cells (cell_grid.h).
 #include "geometry/pair_lists.h"
 

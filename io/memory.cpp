@@ -1,4 +1,4 @@
-// What is here: see memory.h.
+// What is here: the peak memory of this process as the operating system reports it.
 #include "io/memory.h"
 
 #include <sys/resource.h>

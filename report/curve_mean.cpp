@@ -1,4 +1,4 @@
-// What is here: see curve_mean.h.
+// What is here: curves of replicates averaged over equal steps of strain.
 #include "report/curve_mean.h"
 
 #include <algorithm>

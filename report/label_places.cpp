@@ -1,4 +1,4 @@
-// What is here: see label_places.h. What is not: drawing.
+// What is here: the place of each label: of those around its point the one that covers least. What is not: drawing.
 #include "report/label_places.h"
 
 #include <algorithm>

@@ -55,7 +55,7 @@ RunResult read_run(const std::filesystem::path& path);
 /// `index` into run.frames. Throws as read_run does; also when an index in it points outside the discs.
 Frame read_frame(const RunResult& run, std::size_t index);
 
-/// A frame as a file of its own, which write_run takes in (docs/user/formats.md, "/frames").
+/// A frame as a file of its own, which write_run takes in (docs/user/formats.md, "R.h5 (run)").
 void write_frame(const std::filesystem::path& path, const Frame& frame);
 /// R.h5, whole or not at all; `run.path` and `run.frames` do not count. `frame_files`: as write_frame wrote them, in
 /// order. `periodic`: the packing before it was clipped; may be null. Throws std::runtime_error when the disk fails.

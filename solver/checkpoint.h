@@ -1,4 +1,4 @@
-// What is here: the checkpoint of a run: everything its path needs to go on with the same bits. What is not: the folder
+// What is here: the checkpoint of a run: everything it needs to continue with the same bits. What is not: the folder
 // it lies in (run_folder.h), when it is written (run.cpp).
 #pragma once
 

@@ -1,4 +1,4 @@
-// What is here: see damping.h. What is not: forces.
+// What is here: the discs that Cundall damping acts on, kept up to date as bonds break. What is not: forces.
 #include "solver/damping.h"
 
 namespace perfora::solver {

@@ -1,4 +1,4 @@
-// What is here: see loading_rate.h.
+// What is here: the rate of the next segment of the strain path from the stress, power and rate of the last one.
 #include "solver/loading_rate.h"
 
 #include <algorithm>

@@ -34,9 +34,10 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .choice("damage_form", material.damage_form,
               {{"linear_damage", DamageForm::linear_damage}, {"linear_force", DamageForm::linear_force}},
               "How damage grows with zeta: D linear in zeta, or the force linear in zeta.")
-      .choice("damage_in_compression", material.damage_in_compression,
-              {{"none", DamageInCompression::none}, {"full", DamageInCompression::full}},
-              "Whether damage weakens a bond in compression; full adds the contact spring as the bond goes.")
+      .choice(
+          "damage_in_compression", material.damage_in_compression,
+          {{"none", DamageInCompression::none}, {"full", DamageInCompression::full}},
+          "Whether damage weakens a bond in compression; full weakens it, and the contact spring grows in its place.")
       .real("friction_coefficient", material.friction_coefficient, Dimension::ratio, Range::between(0.0, 10.0),
             "mu of contacts.")
       .real("viscous_rate", material.viscous_rate, Dimension::ratio, Range::between(0.0, 2.0),
@@ -105,7 +106,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
   BoundaryOptions& boundary = options.boundary;
   schema.section("boundary", "What stands at the edges of the block (docs/user/theory.md, \"Boundaries\").")
       .choice("top_bottom", boundary.top_bottom, {{"periodic", TopBottom::periodic}, {"platens", TopBottom::platens}},
-              "periodic; rigid platens that press and rub but do not pull.")
+              "periodic; rigid platens: compression and friction, no tension.")
       .choice("sides", boundary.sides, {{"periodic", Sides::periodic}, {"walls", Sides::walls}, {"free", Sides::free}},
               "periodic; rigid walls that stay where they are; free to bulge and to shed fragments.")
       .real("platen_friction", boundary.platen_friction, Dimension::ratio, Range::between(0.0, 10.0),

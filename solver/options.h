@@ -26,7 +26,7 @@ enum class SimdChoice { automatic, avx512, avx2, portable };
 enum class TopBottom { periodic, platens };
 enum class Sides { periodic, walls, free };
 
-/// Largest engineering strain a run may be asked for: the vacuum around a block between platens is made for it.
+/// Largest engineering strain a run may have: the vacuum around a block between platens is made for it.
 inline constexpr double largest_run_strain = 0.9;
 
 /// [material]: bonds, contacts, density. Defaults are the paper's Table 1.

@@ -158,7 +158,7 @@ class Run {
     const double now = seconds_since(started_);
     const bool out_of_time = request_.wall_time_limit > 0.0 && now > request_.wall_time_limit;
     const bool cancelled = request_.cancellation.requested(), stopping = cancelled || out_of_time;
-    // Never store what cannot be gone on with.
+    // A state that cannot be resumed is never stored.
     if (!std::isfinite(simulation_->stress().yy) || !std::isfinite(simulation_->kinetic_energy_at_half_step())) {
       response_.summary.status = results::RunStatus::failed;
       response_.summary.reason =

@@ -27,7 +27,7 @@ RunFolder::RunFolder(const std::filesystem::path& run_file) : folder_(run_file) 
 }
 
 void RunFolder::start_afresh(const std::string& config) {
-  std::filesystem::remove(checkpoint_file());  // first: a folder without it is never taken for a run to go on with
+  std::filesystem::remove(checkpoint_file());  // first: a folder without it is never taken for a run to resume
   std::filesystem::remove_all(folder_);
   std::filesystem::create_directories(folder_ / "frames");
   io::write_file(folder_ / "config.toml", config);
@@ -37,9 +37,10 @@ bool RunFolder::can_resume(const std::string& config) const {
   if (!std::filesystem::exists(checkpoint_file())) return false;
   const std::string found = io::read_file(folder_ / "config.toml");
   if (without_until(found) != without_until(config))
-    throw io::InputError(
-        {(folder_ / "config.toml").string(), 0, ""}, "the unfinished run there has another configuration",
-        "--resume goes on with the same design, seeds and program", "use the same design, or start anew with --force");
+    throw io::InputError({(folder_ / "config.toml").string(), 0, ""},
+                         "the unfinished run there has another configuration",
+                         "--resume continues with the same design, seeds and program",
+                         "use the same design, or start anew with --force");
   return true;
 }
 

@@ -1,5 +1,5 @@
-// What is here: what one compression is asked for and what it answers, as plain data. What is not: running it (run.h),
-// setting it up (run_setup.h), its files (run_files.h).
+// What is here: the request for one compression and its answer, as plain data. What is not: running it (run.h),
+// setting it up (run_setup.h), its files (run_folder.h, results/run_file.h).
 #pragma once
 
 #include <cstdint>

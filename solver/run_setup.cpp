@@ -1,4 +1,4 @@
-// What is here: see run_setup.h, and the estimate of a run made from it.
+// What is here: bonds, masses, rate and time step of a request, and the estimate of a run made from it.
 #include "solver/run_setup.h"
 
 #include <algorithm>

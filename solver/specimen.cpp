@@ -1,4 +1,4 @@
-// What is here: see specimen.h.
+// What is here: the block placed in a larger periodic cell when it has edges, with its walls and what the cut takes.
 #include "solver/specimen.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ struct BlockFrame {
 
 enum class WallSide { bottom, top, left, right };
 
-/// How a disc near a cut edge leans on the wall there: through a bed as stiff as the bonds that the cut took from it.
+/// Residual face stiffness: a disc near a cut edge is held by the wall with the stiffness of the bonds it lost.
 struct Bed {
   std::int32_t disc = 0;
   double normal_stiffness = 0.0;      ///< sum over its cut bonds of k_n n_a^2 + k_t n_b^2, a across the edge, N/m

@@ -1,4 +1,4 @@
-// What is here: see walls.h.
+// What is here: forces between discs and walls, their contact history, and the forces on the walls.
 #include "solver/walls.h"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ void Walls::touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums&
   v.yy += py * ry;
   chunk.sums.friction += f.friction;
   chunk.sums.viscous += f.viscous;
-  // A bed stands for bonds, whose shortening is no overlap of discs.
+  // The residual stiffness stands for bonds, whose shortening is no overlap of discs.
   if (!contact.bedded()) chunk.sums.largest_overlap = std::max(chunk.sums.largest_overlap, overlap);
 }
 

@@ -11,11 +11,11 @@
 
 namespace perfora::solver {
 
-/// Contact of every disc with every wall, by the contact law; walls push and rub, they do not pull. The block's faces
-/// are bedded: a disc that lost bonds to the cut leans on the wall from its first distance on, with the stiffness of
-/// those bonds and, like them, without a dashpot, until it has once been farther off by the critical stretch (and by
-/// its radius). From then on, and for all others, it is an ordinary contact at its radius. So the block begins without
-/// any force, and its edge is about as stiff as its inside. The same bits for any number of threads.
+/// Contact of every disc with every wall, by the contact law; walls transmit compression and friction, no tension. The
+/// block's faces keep a residual stiffness: a disc that lost bonds to the cut is held from its first distance on with
+/// the stiffness of those bonds and, like them, without a dashpot, until it has once been farther off by the critical
+/// stretch (and by its radius). From then on, and for all others, it is an ordinary contact at its radius. So the block
+/// begins without any force, and its edge is about as stiff as its inside. The same bits for any number of threads.
 class Walls {
  public:
   Walls() = default;

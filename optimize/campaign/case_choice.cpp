@@ -1,4 +1,4 @@
-// What is here: see case_choice.h. What is not: the cases.
+// What is here: cases of a sweep chosen by a piece of their label. What is not: the cases.
 #include "optimize/campaign/case_choice.h"
 
 #include <fmt/format.h>

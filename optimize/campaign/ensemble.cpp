@@ -1,4 +1,5 @@
-// What is here: see ensemble.h. The journal is the truth of what is finished; ensemble.json and ensemble.csv follow
+// What is here: replicates of one design run and read back, and the statistics over them. The journal is the truth of
+// what is finished; ensemble.json and ensemble.csv follow
 // from it. What is not: one evaluation.
 #include "optimize/campaign/ensemble.h"
 

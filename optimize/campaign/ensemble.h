@@ -20,7 +20,7 @@ struct EnsembleOptions {
   std::filesystem::path
       folder;           ///< made when missing; holds journal.jsonl, replicate-NNN.h5, ensemble.json, ensemble.csv
   int replicates = 0;   ///< replicates 0 .. replicates - 1
-  bool resume = false;  ///< keep finished replicates of the same design; go on with the one that was stopped
+  bool resume = false;  ///< keep finished replicates of the same design; resume the one that was stopped
   bool force = false;   ///< throw away what an earlier ensemble left in the folder
   /// Called when a replicate is finished or was found finished (`kept`). May be empty.
   std::function<void(const Evaluation&, const std::filesystem::path& run_file, bool kept)> finished;

@@ -1,4 +1,5 @@
-// What is here: see evaluation_queue.h. What is not: the format of a journal line (io/journal.h).
+// What is here: known evaluations read from a journal, missing ones handed to the executor and written down as they
+// come back. What is not: the format of a journal line (io/journal.h).
 #include "optimize/campaign/evaluation_queue.h"
 
 #include <fmt/format.h>

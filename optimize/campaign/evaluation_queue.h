@@ -31,13 +31,13 @@ struct Asked {
 /// How a folder's work is carried out.
 struct WorkOptions {
   std::filesystem::path folder;  ///< made when missing; holds journal.jsonl
-  bool resume = false;           ///< go on with the journal there
+  bool resume = false;           ///< continue the journal there
   bool force = false;            ///< remove an earlier one's files first
   std::string command_line;
   /// Makes the executor when something is to be evaluated; not called when the journal answers everything.
   std::function<std::unique_ptr<Executor>()> make_executor;
   /// Run files of finished simulations stay in DIR/runs, with a few frames; otherwise only those that were stopped or
-  /// killed, which are gone on with.
+  /// killed, which are resumed.
   bool keep_run_files = false;
   /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
   /// what runs only if their evaluation was given a token, too.

@@ -254,14 +254,14 @@ class ChildExecutor final : public Executor {
   }
 
   void accept(Child& child, const std::string& line) {
-    if (!child.job) return lose(child, "the worker spoke without being asked");
+    if (!child.job) return lose(child, "the worker sent a line although no request was open");
     Evaluation evaluation;
     try {
       evaluation = results::evaluation_from_json(nlohmann::json::parse(line));
     } catch (const std::exception& error) {
       return lose(child, fmt::format("the worker's answer cannot be read ({})", error.what()));
     }
-    // Nobody here asked for that: as good as a kill.
+    // No request led to that: treated as a kill.
     if (evaluation.status == results::RunStatus::stopped) return lose(child, "the worker was told to stop");
     const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
     answers_.push_back({child.job->key, std::move(evaluation), child.job->attempts, seconds});

@@ -1,4 +1,4 @@
-// What is here: see rank_correlation.h. What is not: reading tables (sweep_record.h).
+// What is here: Spearman's coefficient with its interval. What is not: reading tables (sweep_record.h).
 #include "optimize/campaign/rank_correlation.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What is here: see sweep_record.h. What is not: the statistics of a case (sweep_result.h).
+// What is here: result.json of a sweep read back, and two sweeps compared over the cases they share. What is not: the
+// statistics of a case (sweep_result.h).
 #include "optimize/campaign/sweep_record.h"
 
 #include <fmt/format.h>

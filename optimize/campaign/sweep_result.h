@@ -16,7 +16,7 @@ namespace perfora::optimize {
 struct CaseResult {
   int completed = 0, failed = 0;
   std::vector<results::Statistic> statistics;  ///< of sweep_measures(), in their order, over the completed replicates
-  /// Statistics of (this - case 0) over the replicates that both have: same seeds, so that the luck of the packing
+  /// Statistics of (this - case 0) over the replicates that both have: same seeds, so that the scatter of packings
   /// falls out where the packing is the same. Empty without a case 0.
   std::vector<results::Statistic> changes;
 };

@@ -15,8 +15,8 @@ namespace perfora::optimize {
 class SweepRun {
  public:
   /// Opens the folder and its journal. Throws io::InputError when the folder holds a sweep and neither `resume` nor
-  /// `force` is set. A journal's evaluations are kept by what was asked, so a resumed sweep may have other cases, other
-  /// replicates, even another design: what was run already is not run again, what is no longer asked for is not shown.
+  /// `force` is set. A journal's evaluations are found by their request, so a resumed sweep may have other cases, other
+  /// replicates, even another design: what was run already is not run again, what is no longer requested is not shown.
   SweepRun(Sweep sweep, WorkOptions options);
   ~SweepRun();
 

@@ -1,4 +1,4 @@
-// What is here: see work_folder.h.
+// What is here: a folder of long work made, locked, checked for resuming, or cleared. What is not: its journal.
 #include "optimize/campaign/work_folder.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void prepare_work_folder(const std::filesystem::path& folder, std::span<const ch
       std::filesystem::remove_all(folder / name);
   if (!resume && std::filesystem::exists(journal))
     throw io::InputError({folder.string(), 0, ""}, fmt::format("this folder holds a {} already", what), "",
-                         "go on with it by --resume, start over with --force, or name another folder with -o");
+                         "continue it with --resume, start over with --force, or name another folder with -o");
   if (!std::filesystem::exists(journal))
     for (const char* name : own_files)
       if (std::filesystem::exists(folder / name))

@@ -1,4 +1,4 @@
-// What is here: see elastic_answer.h.
+// What is here: a design packed, bonded and solved for its linear response; the JSON and the file of what was found.
 #include "optimize/evaluate/elastic_answer.h"
 
 #include <algorithm>

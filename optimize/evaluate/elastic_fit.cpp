@@ -1,4 +1,4 @@
-// What is here: see elastic_fit.h.
+// What is here: the root k_t/k_n for a wanted Poisson's ratio, bracketed, each step one elastic solution per sample.
 #include "optimize/evaluate/elastic_fit.h"
 
 #include <boost/math/tools/toms748_solve.hpp>

@@ -14,7 +14,7 @@ struct UnitElasticity {
   double young = 0.0, poisson = 0.0;
 };
 
-/// Solid samples of a material, bonded, whose elastic constants are asked for many stiffness ratios.
+/// Solid samples of a material, bonded, whose elastic constants are computed for many stiffness ratios.
 class ElasticFit {
  public:
   /// Packs `replicates` samples of `sample` (material_sample). Throws io::InputError when a packing is not reached or

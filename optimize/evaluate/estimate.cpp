@@ -1,4 +1,5 @@
-// What is here: see estimate.h. What is not: measured numbers of a run (solver::estimate_run counts bonds of a real
+// What is here: what a design costs, by counts and closed forms. What is not: measured numbers of a run
+// (solver::estimate_run counts bonds of a real
 // packing).
 #include "optimize/evaluate/estimate.h"
 

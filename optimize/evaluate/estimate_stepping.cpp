@@ -1,4 +1,4 @@
-// What is here: see estimate_stepping.h.
+// What is here: the time step of a design, from a small shaken lattice of its discs instead of the whole packing.
 #include "optimize/evaluate/estimate_stepping.h"
 
 #include <algorithm>

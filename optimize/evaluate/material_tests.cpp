@@ -154,7 +154,7 @@ std::vector<MaterialTestKind> wanted_tests(const DesignFile& design) {
   if (test.shear) kinds.push_back(MaterialTestKind::shear);
   if (test.oedometric) kinds.push_back(MaterialTestKind::oedometric);
   if (kinds.empty())
-    throw io::InputError(design.schema().origin("test.tension"), "no test is asked for",
+    throw io::InputError(design.schema().origin("test.tension"), "no test is requested",
                          "tension, compression, shear and oedometric of [test] are true or false",
                          "set at least one of them to true");
   return kinds;

@@ -1,4 +1,4 @@
-// What is here: see packing_cache.h. What is not: files.
+// What is here: packings found by their key in memory, or made and kept. What is not: files.
 #include "optimize/evaluate/packing_cache.h"
 
 #include <list>

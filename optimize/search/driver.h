@@ -18,7 +18,7 @@ struct Wanted {
 
 /// Best and start design on fresh seeds, pair by pair.
 struct Finals {
-  int replicates = 0;                             ///< asked for
+  int replicates = 0;                             ///< requested
   int pairs = 0;                                  ///< both simulations gave a plateau
   std::vector<double> best_scores, start_scores;  ///< of single simulations (no spread term), one a pair
   double gain = 0.0;                              ///< mean of start score - best score

@@ -45,7 +45,7 @@ struct Callbacks {
   SearchEnd end;
   bool over = false;
   std::exception_ptr error;
-  std::vector<double> point;   ///< the point asked for last
+  std::vector<double> point;   ///< the point requested last
   std::vector<double> limits;  ///< constraint values there
   bool limits_known = false;
 
@@ -81,7 +81,7 @@ struct Callbacks {
     if (objective_call) scored = true;
     return true;
   }
-  bool scored = false;  ///< the objective was asked at `point`
+  bool scored = false;  ///< the objective was evaluated at `point`
 
   double score(unsigned n, const double* x) {
     if (!running() || !enter(n, x, true)) return after_the_end;

@@ -34,9 +34,9 @@ using Objective = std::function<std::optional<double>(std::span<const double>)>;
 using Constraints = std::function<std::vector<double>(std::span<const double>)>;
 
 struct SearchEnd {
-  bool finished = false;  ///< false: it met an unknown point, which is the last one asked for
+  bool finished = false;  ///< false: it met an unknown point, which is the last one requested
   std::string reason;     ///< why it finished: "maxeval reached", "xtol reached", ...
-  int points = 0;         ///< points asked for, the unknown one included
+  int points = 0;         ///< points requested, the unknown one included
 };
 
 /// Runs the search from its start until it ends or the objective answers nothing for the first time; after that the

@@ -1,7 +1,7 @@
-// What is here: see elastic.h. Bond displacements are delta = B u + A with a sparse matrix B (two rows a bond, three
-// columns a disc) and the affine part A; so K = B^T D B, f = B^T D A and stiffness = A^T D delta / area. What is not:
-// the force kernels, on purpose.
-// One thread: a second one gains little here, and waits where many compressions share the cores.
+// What is here: the stiffness matrix of a bonded block assembled and solved for three unit strains. Bond displacements
+// are delta = B u + A with a sparse matrix B (two rows a bond, three columns a disc) and the affine part A; so K = B^T
+// D B, f = B^T D A and stiffness = A^T D delta / area. What is not: the force kernels, on purpose. One thread: a second
+// one gains little here, and waits where many compressions share the cores.
 #define EIGEN_DONT_PARALLELIZE
 #include "solver/elastic/elastic.h"
 

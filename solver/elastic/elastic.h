@@ -66,7 +66,7 @@ struct ElasticResponse {
 };
 
 /// Solves K u = -f(E) for the three unit strains of the periodic cell with the linearised law of docs/user/theory.md
-/// ("Elastic answer"): bonds of `network` between `discs` discs, all intact ones with their full stiffness (damage is
+/// ("Elastic response"): bonds of `network` between `discs` discs, all intact ones with their full stiffness (damage is
 /// not looked at: it weakens tension only, which is not linear), cell `width` x `height` in m, stiffnesses in N/m.
 /// Conjugate gradients with two levels: blocks of a disc and rigid groups of neighbours. Isolated discs, fragments and
 /// free rotations do no harm. What does not converge is a status. Cost: about 60 products with the matrix; one to two

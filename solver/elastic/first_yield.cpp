@@ -1,4 +1,4 @@
-// What is here: see first_yield.h.
+// What is here: the strain at which each bond yields, from the linear response, and the smallest of them.
 #include "solver/elastic/first_yield.h"
 
 #include <algorithm>

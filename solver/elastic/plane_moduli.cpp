@@ -1,4 +1,4 @@
-// What is here: engineering constants of a plane stiffness (docs/user/theory.md, "Elastic answer"). What is not: how
+// What is here: engineering constants of a plane stiffness (docs/user/theory.md, "Elastic response"). What is not: how
 // the stiffness is found (elastic.cpp).
 #include <Eigen/Dense>
 #include <cmath>

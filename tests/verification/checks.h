@@ -70,7 +70,7 @@ inline void expect_between(const std::string& what, double measured, double low,
 }
 
 /// |measured| <= limit of a check that is known not to hold (docs/developer/verification.md says why): recorded as it
-/// is. A test that asked in vain shows as skipped, with this sentence, so that it stays in sight.
+/// is. A test with such a check shows as skipped, with this sentence, so that it stays in sight.
 inline bool holds_so_far(const std::string& what, double measured, double limit) {
   const bool holds = std::fabs(measured) <= limit;
   record(what, measured, "at most " + short_text(limit), holds);

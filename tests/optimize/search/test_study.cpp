@@ -96,7 +96,7 @@ TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
 }
 
 TEST_F(StudyFile, TurnsAreArmsOfTheRotatedFamilyOnly) {
-  // Two rows of two turned by 0 are the square holes, and a turn says nothing to the square ones.
+  // Two rows of two turned by 0 are the square holes, and a turn does not change the square ones.
   const Study study = read(study_text("maxeval = 9", "family = [\"square\", \"rotated\"]\nturn = [0, 1, -2]"));
   EXPECT_EQ(names(study),
             (std::vector<std::string>{"family=square turn=0", "family=rotated turn=1", "family=rotated turn=-2"}));
