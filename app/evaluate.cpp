@@ -98,7 +98,7 @@ int evaluate_one(const EvaluateFlags& flags) {
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
   if (std::filesystem::exists(output)) write_beside(output);
   log_warnings(validity_warnings(evaluation, design.design().solver.loading));
-  const auto record = optimize::to_json(evaluation, false);
+  const auto record = results::to_json(evaluation, false);
   print_record(record, flags.common.json);
   say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);

@@ -78,7 +78,7 @@ struct Names {
 };
 Names names_of(const Sweep& sweep, const SweepCase& one) {
   if (!one.group.empty()) return {one.settings.back().key, io::readable(one.settings.back().value), ""};
-  for (const optimize::SweepSetting& setting : one.settings) {
+  for (const optimize::DesignChange& setting : one.settings) {
     if (setting.key != sweep.grid_key) continue;
     const std::string place = io::readable(setting.value);
     const std::string part = io::after_section(setting.key) + " " + place;

@@ -26,7 +26,7 @@ int work(int threads) {
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
     const optimize::Evaluation evaluation = answer(nlohmann::json::parse(line), threads);
-    print_text(optimize::to_json(evaluation, true).dump() + "\n");
+    print_text(results::to_json(evaluation, true).dump() + "\n");
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.
     if (evaluation.status == results::RunStatus::stopped) return exit_stopped;

@@ -33,7 +33,7 @@ struct SweepCase {
   std::shared_ptr<const Design> design;  ///< resolved
   std::string problem;                   ///< why it cannot be run; empty: it can
 
-  Request request(int replicate) const { return {design, replicate}; }
+  Request request(int replicate) const { return {design, replicate, 0.0, {}}; }
 };
 
 /// A sweep, read and checked. Copies share the design.

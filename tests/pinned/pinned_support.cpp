@@ -1,5 +1,6 @@
-// What is here: see pinned_support.h. What is not: anything of the program's own code, which may change; the fixtures
-// are compared through its command line and with a JSON parser alone.
+// What is here: running the program in a copy of the fixtures, and comparing. What is not: the program's own code,
+// which may change: fixtures are compared through its command line and with a JSON parser. Of the library only the
+// table of measures is asked, for what is new in it.
 #include "tests/pinned/pinned_support.h"
 
 #include <gnu/libc-version.h>
@@ -11,6 +12,8 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "results/measure_table.h"
 
 namespace perfora::test {
 namespace {
@@ -35,6 +38,30 @@ std::vector<std::string> lines_of(const std::string& text) {
 bool depends_on_the_clock(const std::string& key) {
   static const std::set<std::string> keys{"performance", "seconds", "memory", "threads"};
   return keys.contains(key);
+}
+
+/// Whether a key or a column belongs to a measure: its name, or that with what a table adds to it.
+bool is_of_measure(const std::string& name) {
+  return std::any_of(results::measures().begin(), results::measures().end(), [&](const results::Measure& measure) {
+    const std::string key = measure.key;
+    for (const char* end : {"", "_std", "_ci95", "_change", "_change_ci95"})
+      if (name == key + end) return true;
+    return false;
+  });
+}
+
+/// The fields of a line of a table; quotes stay.
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  }
+  return fields;
 }
 
 /// The lines of machine.txt as this machine and build have them.
@@ -142,6 +169,8 @@ std::string differences(const json& expected, const json& actual, const std::str
       const std::string here = place + "/" + key;
       if (!actual.contains(key))
         found += here + ": missing\n";
+      else if (!expected.contains(key) && is_of_measure(key))
+        continue;
       else if (!expected.contains(key))
         found += here + ": one key too many\n";
       else if (!depends_on_the_clock(key))
@@ -156,35 +185,40 @@ std::string differences(const json& expected, const json& actual, const std::str
   return found;
 }
 
-std::string without_seconds(const std::string& csv) {
+std::string comparable_table(const std::string& csv, const std::string& pinned) {
+  const std::vector<std::string> pinned_lines = lines_of(pinned);
+  const std::vector<std::string> known = pinned_lines.empty() ? std::vector<std::string>() : fields_of(pinned_lines[0]);
+  std::vector<bool> kept;
   std::string text;
-  std::size_t seconds = std::string::npos;
   for (const std::string& line : lines_of(csv)) {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (const char c : line) {
-      if (c == '"') quoted = !quoted;
-      if (c == ',' && !quoted)
-        fields.emplace_back();
-      else
-        fields.back() += c;
-    }
-    for (std::size_t k = 0; k < fields.size() && text.empty(); ++k)
-      if (fields[k] == "seconds") seconds = k;
-    for (std::size_t k = 0; k < fields.size(); ++k) text += (k == seconds ? std::string() : fields[k]) + ",";
+    const std::vector<std::string> fields = fields_of(line);
+    if (kept.empty())
+      for (const std::string& name : fields) {
+        const bool old = std::find(known.begin(), known.end(), name) != known.end();
+        kept.push_back(name != "seconds" && (old || !is_of_measure(name)));
+      }
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      if (k >= kept.size() || kept[k]) text += fields[k] + ",";
     text += "\n";
   }
   return text;
 }
 
-std::string without_times(const std::string& text) {
+std::string comparable_text(const std::string& text, const std::string& pinned) {
   std::string kept;
   bool in_performance = false;
   for (const std::string& line : lines_of(text)) {
     in_performance = line == "Performance" || (in_performance && line.starts_with("  "));
     const bool estimate = line.starts_with("  time") && line.find("roughly") != std::string::npos;
     const bool memory = line.starts_with("  memory ");
-    if (!in_performance && !estimate && !memory) kept += line + "\n";
+    const bool learned =
+        std::any_of(results::measures().begin(), results::measures().end(), [&](const results::Measure& measure) {
+          for (const std::string name : {measure.label, measure.key})
+            if (line.starts_with("  " + name + " ") && pinned.find("\n  " + name + " ") == std::string::npos)
+              return true;
+          return false;
+        });
+    if (!in_performance && !estimate && !memory && !learned) kept += line + "\n";
   }
   return kept;
 }

@@ -52,13 +52,14 @@ std::string not_here(const std::string& instruction_set);
 std::string other_bits(const std::string& instruction_set);
 
 /// Where two results differ, a line each: keys too many or missing, values that are not the same to the last bit.
-/// What depends on the clock, on memory and on the number of threads is left out.
+/// What depends on the clock, on memory and on the number of threads is left out, and measures that the program has
+/// learned since.
 std::string differences(const nlohmann::json& expected, const nlohmann::json& actual, const std::string& place = "");
 
-/// A table without the column of seconds.
-std::string without_seconds(const std::string& csv);
-/// A summary as printed, without what depends on the clock.
-std::string without_times(const std::string& text);
+/// A table without the column of seconds and without those of measures that the table `pinned` has not got.
+std::string comparable_table(const std::string& csv, const std::string& pinned);
+/// A summary as printed, without what depends on the clock and without measures that the summary `pinned` has not got.
+std::string comparable_text(const std::string& text, const std::string& pinned);
 
 /// Lines of a journal; the program keeps finished work in those with the event `evaluation`, `replicate` or `point`.
 std::vector<std::string> journal_lines(const std::filesystem::path& folder);

@@ -279,20 +279,21 @@ void write_run(const SyntheticRun& synthetic, const std::filesystem::path& path)
   std::vector<std::filesystem::path> frames;
   for (const Frame& frame : synthetic.frames) {
     frames.push_back(path.parent_path() / ("frame-" + frame.info.name + ".h5"));
-    write_frame(frames.back(), frame);
+    results::write_frame(frames.back(), frame);
   }
-  write_run(path, synthetic.run, frames, &synthetic.run.clipped);
+  results::write_run(path, synthetic.run, frames, &synthetic.run.clipped);
   for (const std::filesystem::path& frame : frames) std::filesystem::remove(frame);
 }
 
 void write_pack(const SyntheticRun& synthetic, const std::filesystem::path& path) {
   const RunResult& run = synthetic.run;
-  write_pack(path, {path,
-                    run.provenance,
-                    run.clipped,
-                    run.clipped,
-                    run.layout,
-                    {{"schema", pack_format}, {"discs", 36607}, {"bonds_per_disc", 21.3}, {"thinnest_wall", 0.005}}});
+  results::write_pack(
+      path, {path,
+             run.provenance,
+             run.clipped,
+             run.clipped,
+             run.layout,
+             {{"schema", pack_format}, {"discs", 36607}, {"bonds_per_disc", 21.3}, {"thinnest_wall", 0.005}}});
 }
 
 }  // namespace perfora::results::testing

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "optimize/evaluate/design.h"
+#include "results/measure_table.h"
 
 namespace perfora::test {
 namespace {
@@ -44,6 +45,17 @@ TEST(Documentation, ReferenceIsWhatTheTableOfKeysPrints) {
   ASSERT_NE(place, std::string::npos);
   EXPECT_EQ(text.substr(place + line.size()), printed_reference())
       << "the keys have changed: write what `perfora reference` prints below the line of docs/user/design-files.md";
+}
+
+TEST(Documentation, FormatsListTheTableOfMeasures) {
+  const std::string text = read_text(source / "docs/user/formats.md");
+  const std::string begin = "<!-- the table of measures begins -->\n", end = "<!-- the table of measures ends -->";
+  const auto from = text.find(begin), to = text.find(end);
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  const std::string written = text.substr(from + begin.size(), to - from - begin.size());
+  EXPECT_EQ(written, results::measure_reference())
+      << "the measures have changed: write this between the two marks of docs/user/formats.md";
 }
 
 TEST(Documentation, KeysThatTheTheoryNamesExist) {

@@ -1,0 +1,96 @@
+// What is here: an evaluation measured anew for another window and a smaller strain against the run that was made with
+// them. What is not: the measures themselves (tests/results/test_measures.cpp).
+#include <gtest/gtest.h>
+
+#include "optimize/evaluate/answers.h"
+#include "results/history_file.h"
+#include "results/json.h"
+#include "results/measured_anew.h"
+#include "tests/optimize/evaluate/design_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+constexpr double row = 5e-4;
+constexpr double long_end = 0.03, short_end = 0.024;
+
+class MeasuredAnew : public ::testing::Test {
+ protected:
+  DesignFile design(double until, double start, double end) const {
+    return DesignFile(folder_.file("design.toml", small_design),
+                      {"loading.until=" + std::to_string(until), "measures.plateau_start=" + std::to_string(start),
+                       "measures.plateau_end=" + std::to_string(end)});
+  }
+  Request request(double until, double start, double end) const { return make_request(design(until, start, end), 0); }
+  DesignFolder folder_;
+};
+
+/// All that two runs of one path must share: performance is of the machine.
+nlohmann::json comparable(const Evaluation& evaluation) {
+  nlohmann::json record = to_json(evaluation, true);
+  record.erase("performance");
+  return record;
+}
+
+// Nothing numerical is expected: the run with that window and end is the measure.
+TEST_F(MeasuredAnew, AnotherWindowAndASmallerStrainGiveTheBitsOfTheirOwnRun) {
+  const Evaluation longer = evaluate_design(design(long_end, 0.01, 0.03), {}, 0);
+  const Evaluation window = evaluate_design(design(long_end, 0.005, 0.02), {}, 0);
+  const Evaluation shorter = evaluate_design(design(short_end, 0.005, 0.02), {}, 0);
+  ASSERT_EQ(shorter.curve.peak_passed.back(), 1.0) << "the first peak must be known where the shorter run ends";
+  ASSERT_NE(longer.summary.plateau_stress, window.summary.plateau_stress);
+  const double area = 0.012 * 0.012;
+  const auto anew = results::measured_anew(longer, {0.005, 0.02, long_end, row, area});
+  ASSERT_TRUE(anew.has_value());
+  EXPECT_EQ(comparable(*anew), comparable(window));
+  const auto cut = results::measured_anew(longer, {0.005, 0.02, short_end, row, area});
+  ASSERT_TRUE(cut.has_value());
+  EXPECT_EQ(comparable(*cut), comparable(shorter));
+}
+
+TEST_F(MeasuredAnew, NothingIsMadeUp) {
+  const Evaluation made = evaluate_design(design(long_end, 0.01, 0.03), {}, 0);
+  const double area = 0.012 * 0.012;
+  EXPECT_FALSE(results::measured_anew(made, {0.01, 0.03, 0.04, row, area})) << "it ended before";
+  EXPECT_FALSE(results::measured_anew(made, {0.002, 0.004, 0.004, row, area})) << "the first peak is not known there";
+  Evaluation without_ends = made;
+  without_ends.curve.peak_passed.clear();
+  EXPECT_FALSE(results::measured_anew(without_ends, {0.01, 0.02, short_end, row, area})) << "of an older program";
+  EXPECT_TRUE(results::measured_anew(without_ends, {0.01, 0.02, long_end, row, area}));
+  Evaluation thinned = made;
+  thinned.curve = results::coarse_curve(made.curve);
+  EXPECT_FALSE(results::measured_anew(thinned, {0.01, 0.02, long_end, row, area})) << "a curve for pictures";
+  Evaluation failed = made;
+  failed.status = results::RunStatus::failed;
+  EXPECT_FALSE(results::measured_anew(failed, {0.01, 0.02, long_end, row, area}));
+}
+
+TEST_F(MeasuredAnew, AHistoryComesBackFromItsFileAndAnswersFromThere) {
+  const Request first = request(long_end, 0.01, 0.03), other = request(short_end, 0.005, 0.02);
+  ASSERT_EQ(first.key(), other.key());
+  const Evaluation made = evaluate_request(first, 1);
+  results::write_history_file(folder_ / "h.h5", made.curve);
+  const results::History read = results::read_history_file(folder_ / "h.h5");
+  for (const results::History::Column& column : results::History::columns())
+    EXPECT_EQ(read.*column.values, made.curve.*column.values) << column.name;
+  Answers answers;
+  Evaluation stored = made;
+  stored.curve = results::coarse_curve(made.curve);
+  answers.add(first.key(), stored);
+  EXPECT_EQ(answer_for(other, other.key(), answers), nullptr) << "no history is kept";
+  int reads = 0;
+  answers.set_histories([&](const std::string&) {
+    ++reads;
+    return results::read_history_file(folder_ / "h.h5");
+  });
+  const Evaluation* answer = answer_for(other, other.key(), answers);
+  ASSERT_NE(answer, nullptr);
+  Evaluation expected = evaluate_request(other, 1);
+  expected.curve = results::coarse_curve(expected.curve);
+  EXPECT_EQ(comparable(*answer), comparable(expected));
+  EXPECT_EQ(answer_for(other, other.key(), answers), answer);
+  EXPECT_EQ(reads, 1) << "what was measured anew is remembered";
+}
+
+}  // namespace
+}  // namespace perfora::optimize
