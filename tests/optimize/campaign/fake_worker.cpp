@@ -9,7 +9,7 @@
 #include <iostream>
 #include <string>
 
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <thread>
 
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "optimize/campaign/sweep_record.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

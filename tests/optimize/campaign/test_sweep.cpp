@@ -10,7 +10,7 @@
 #include "io/journal.h"
 #include "io/progress.h"
 #include "optimize/campaign/sweep_result.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

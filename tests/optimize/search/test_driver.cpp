@@ -7,7 +7,7 @@
 
 #include "optimize/search/driver.h"
 #include "optimize/search/nlopt_search.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

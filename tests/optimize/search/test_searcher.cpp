@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "optimize/search/driver.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

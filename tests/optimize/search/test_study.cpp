@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "optimize/search/study_arms.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {

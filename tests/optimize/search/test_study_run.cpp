@@ -11,7 +11,7 @@
 #include "io/progress.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
-#include "study_support.h"
+#include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
 namespace {
