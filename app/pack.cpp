@@ -8,6 +8,7 @@
 #include "io/memory.h"
 #include "io/text.h"
 #include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/pack_file.h"
 
 namespace perfora::app {
 

@@ -7,6 +7,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "optimize/evaluate/material_tests.h"
+#include "optimize/evaluate/material_tests_file.h"
 #include "report/plot.h"
 
 namespace perfora::app {

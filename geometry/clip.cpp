@@ -1,11 +1,12 @@
 // What is here: the discs a layout takes away, and the order of those left.
 // What is not: walls between them (wall_discretised.cpp).
+#include "geometry/clip.h"
+
 #include <algorithm>
 #include <vector>
 
 #include "geometry/cell_grid.h"
 #include "geometry/hilbert.h"
-#include "geometry/make_packing.h"
 
 namespace perfora::geometry {
 

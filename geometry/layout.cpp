@@ -10,6 +10,7 @@
 #include "geometry/layout_lattice.h"
 #include "geometry/layout_random.h"
 #include "geometry/random.h"
+#include "geometry/wall.h"
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/text.h"

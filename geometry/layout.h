@@ -50,11 +50,4 @@ const char* count_key(const LayoutOptions& options);
 /// Whether the family gives every hole `options.diameter`.
 bool equal_holes(LayoutFamily family);
 
-/// Thinnest wall over all periodic pairs, own images included. Brute force up to 256 holes and for
-/// other shapes than circles, CGAL's Apollonius graph beyond. The brute force is the definition; the graph, which takes
-/// circles only, is tested against it.
-ThinnestWall thinnest_wall(const PerforationLayout& layout);
-ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout);
-ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout);
-
 }  // namespace perfora::geometry

@@ -9,9 +9,11 @@
 #include <numbers>
 #include <string>
 
+#include "geometry/clip.h"
 #include "geometry/hilbert.h"
 #include "geometry/jam.h"
 #include "geometry/overlap_minimiser.h"
+#include "geometry/packing.h"
 #include "geometry/random.h"
 #include "geometry/size_law.h"
 #include "io/csv.h"

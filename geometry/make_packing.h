@@ -1,18 +1,18 @@
-// What is here: how dense periodic disc packings are made, clipped by perforations, imported. What is not: HDF5 files (packing_file.h).
+// What is here: how dense periodic disc packings are made and imported. What is not: clipping (clip.h), HDF5 files
+// (packing_file.h).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 
+#include "geometry/clip.h"
 #include "geometry/packing.h"
-#include "geometry/perforation.h"
 #include "io/schema.h"
 
 namespace perfora::geometry {
 
 enum class PackingProtocol { dilate, quench };
-enum class ClipRule { centre, whole };
 
 /// Options of the design file's [packing] section. Lengths in m.
 struct PackingOptions {
@@ -32,10 +32,6 @@ inline constexpr int packing_algorithm_version = 2;
 
 PackingKey packing_key(const PackingOptions& options, double width, double height, std::uint64_t seed);
 
-/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (docs/user/theory.md, "Block, perforations, packing").
-/// Throws io::InputError when the mean cannot be reached.
-double size_law_exponent(double mean_diameter, double maximum_diameter, double size_ratio);
-
 /// Number of discs make_packing will use for a wanted solid fraction (or its estimate of the jamming fraction when 0).
 std::int64_t expected_discs(const PackingOptions& options, double width, double height);
 
@@ -46,15 +42,5 @@ Packing make_packing(const PackingOptions& options, double width, double height,
 
 /// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with file and line.
 Packing import_packing(const std::filesystem::path& csv, double width, double height);
-
-/// Removes the discs that a perforation takes away and sorts the rest along a Hilbert curve (neighbours in space become neighbours in memory).
-Packing clip_packing(const Packing& packing, const PerforationLayout& layout, ClipRule rule);
-
-/// Wall measured between the clipped discs (docs/user/theory.md: wider than the exact wall): the thinnest wall between the voids, where the void of a hole is
-/// the largest circle about its centre that no disc enters. Infinite without holes.
-double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout& layout);
-
-/// Largest overlap, contacts, rattlers of a periodic packing as it stands.
-PackingQuality measure_packing(const Packing& packing);
 
 }  // namespace perfora::geometry

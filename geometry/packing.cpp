@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "geometry/cell_grid.h"
-#include "geometry/make_packing.h"
 
 namespace perfora::geometry {
 

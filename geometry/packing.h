@@ -50,4 +50,7 @@ struct Packing {
   double mean_diameter() const;
 };
 
+/// Largest overlap, contacts, rattlers of a periodic packing as it stands.
+PackingQuality measure_packing(const Packing& packing);
+
 }  // namespace perfora::geometry

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "geometry/make_packing.h"
 #include "geometry/random.h"
 #include "io/error.h"
 

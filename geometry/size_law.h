@@ -1,6 +1,5 @@
 // What is here: the size law of the discs, number density p(d) ~ d^-q on [d_max/ratio, d_max] (docs/user/theory.md,
-// "Block, perforations, packing"): moments and samples. What is not: the search for q (size_law_exponent of
-// make_packing.h), the places of the discs.
+// "Block, perforations, packing"): exponent, moments, samples. What is not: the places of the discs.
 #pragma once
 
 #include <cstdint>
@@ -22,5 +21,9 @@ struct SizeLaw {
 /// `count` diameters in ascending order, in units of d_max: one from each of `count` strata of equal probability, so
 /// that the mean of the sample is that of the law to about 1/count^(3/2).
 std::vector<double> sample_diameters(const SizeLaw& law, std::int64_t count, std::uint64_t seed);
+
+/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (docs/user/theory.md, "Block, perforations, packing").
+/// Throws io::InputError when the mean cannot be reached.
+double size_law_exponent(double mean_diameter, double maximum_diameter, double size_ratio);
 
 }  // namespace perfora::geometry

@@ -1,10 +1,10 @@
 // What is here: the thinnest wall by its definition, and the choice between that and the Apollonius graph.
 // What is not: CGAL (wall_apollonius.cpp), walls between clipped discs (wall_discretised.cpp).
+#include "geometry/wall.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "geometry/layout.h"
 
 namespace perfora::geometry {
 

@@ -1,6 +1,8 @@
 // What is here: the thinnest wall from the Apollonius graph (additively weighted Voronoi diagram) of the holes and
 // their periodic images, for circular holes alone (thinnest_wall compares all pairs where there are others).
 // What is not: the definition (wall.cpp), which this is tested against.
+#include "geometry/wall.h"
+
 #include <CGAL/Apollonius_graph_2.h>
 #include <CGAL/Apollonius_graph_filtered_traits_2.h>
 #include <CGAL/Apollonius_graph_hierarchy_2.h>
@@ -11,8 +13,6 @@
 #include <limits>
 #include <map>
 #include <vector>
-
-#include "geometry/layout.h"
 
 namespace perfora::geometry {
 

@@ -1,11 +1,11 @@
 // What is here: the thinnest wall as the clipped discs build it.
 // What is not: the exact wall of the layout (wall.cpp).
+#include "geometry/wall.h"
+
 #include <algorithm>
 #include <vector>
 
 #include "geometry/cell_grid.h"
-#include "geometry/layout.h"
-#include "geometry/make_packing.h"
 
 namespace perfora::geometry {
 

@@ -1,10 +1,11 @@
 // What is here: cracks as clusters of broken bonds, and their length across the loading.
+#include "solver/crack_length.h"
+
 #include <cmath>
 #include <set>
 
 #include "solver/cell_grid.h"
 #include "solver/clusters.h"
-#include "solver/material_test.h"
 
 namespace perfora::solver {
 namespace {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "io/error.h"
+#include "solver/crack_length.h"
 
 namespace perfora::solver {
 namespace {

@@ -67,10 +67,4 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request);
 double estimated_yield_strain(MaterialTestKind kind, const SolverOptions& options, double mean_diameter,
                               double mean_bond_length);
 
-/// Length of the cracks across `direction` (0: measured along x, 1: along y) in metres: broken bonds whose midpoints
-/// lie within `link` of each other (periodic cell width x height) form a crack; each crack counts with the part of the
-/// side that its midpoints occupy, in pieces of `link`; cracks shorter than `shortest` do not count.
-double projected_crack_length(const std::vector<results::BreakEvent>& events, double width, double height,
-                              int direction, double link, double shortest);
-
 }  // namespace perfora::solver

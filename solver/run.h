@@ -2,8 +2,6 @@
 // What is not: designs, layouts, packings (other rooms), the time loop itself (simulation.h).
 #pragma once
 
-#include <cstdint>
-
 #include "solver/run_request.h"
 
 namespace perfora::solver {
@@ -12,13 +10,5 @@ namespace perfora::solver {
 /// summary.status = stopped. Numerical trouble is summary.status = failed with its reason; bad input throws
 /// io::InputError.
 Response run_compression(const RunRequest& request);
-
-/// Counts, step and mean rate of a run, without running (expected_steps of loading_rate.h); what they cost is estimated
-/// in optimize/evaluate/estimate.h.
-struct RunEstimate {
-  std::int64_t discs = 0, bonds = 0, steps = 0;
-  double time_step = 0.0, rate = 0.0;
-};
-RunEstimate estimate_run(const RunRequest& request);
 
 }  // namespace perfora::solver

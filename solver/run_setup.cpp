@@ -6,7 +6,6 @@
 
 #include "io/error.h"
 #include "solver/kernels/kernels.h"
-#include "solver/run.h"
 
 namespace perfora::solver {
 

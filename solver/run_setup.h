@@ -33,4 +33,12 @@ LoadedBlock loaded_block(const geometry::PerforationLayout& layout);
 /// nothing is bonded.
 RunSetup set_up_run(const RunRequest& request);
 
+/// Counts, step and mean rate of a run, without running (expected_steps of loading_rate.h); what they cost is estimated
+/// in optimize/evaluate/estimate.h.
+struct RunEstimate {
+  std::int64_t discs = 0, bonds = 0, steps = 0;
+  double time_step = 0.0, rate = 0.0;
+};
+RunEstimate estimate_run(const RunRequest& request);
+
 }  // namespace perfora::solver

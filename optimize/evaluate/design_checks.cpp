@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/size_law.h"
+#include "geometry/wall.h"
 #include "io/text.h"
 #include "optimize/evaluate/design.h"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "geometry/size_law.h"
+#include "geometry/wall.h"
 #include "optimize/evaluate/estimate_stepping.h"
 #include "solver/run_setup.h"
 

@@ -9,6 +9,7 @@
 #include "solver/mass.h"
 #include "solver/noise.h"
 #include "solver/run.h"
+#include "solver/run_setup.h"
 
 namespace perfora::optimize {
 

@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "geometry/clip.h"
 #include "geometry/packing_file.h"
+#include "geometry/wall.h"
 #include "io/hdf5.h"
 #include "optimize/evaluate/packing_cache.h"
 #include "results/file_parts.h"

@@ -62,11 +62,6 @@ double mean_diameter_of(const DesignFile& design, const geometry::Packing& perio
 results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
                                   const std::string& command_line);
 
-/// P.h5 of a packed design (docs/user/formats.md), whole or not at all; `summary` is the object that `perfora pack
-/// --json` prints.
-void write_pack_file(const std::filesystem::path& path, const DesignFile& design, const PackedDesign& packed,
-                     const nlohmann::json& summary, const std::string& command_line);
-
 /// Throws io::InputError unless `packing_file` holds the periodic packing that `design` and `replicate` ask for; what
 /// --packing is checked with before work starts.
 void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate);
@@ -77,9 +72,5 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
                                               int replicate);
 
 using results::number;
-
-/// schema "perfora.pack/1": what `perfora pack --json` prints; status "failed" when the packing was not reached.
-nlohmann::json pack_record(const PackedDesign& packed, const Seeds::Effective& seeds,
-                           const results::Performance& performance);
 
 }  // namespace perfora::optimize

@@ -59,11 +59,4 @@ std::vector<solver::MaterialTestKind> wanted_tests(const DesignFile& design);
 MaterialTests test_material(const DesignFile& design, const std::vector<solver::MaterialTestKind>& kinds,
                             const MaterialTestsOptions& options);
 
-/// schema "perfora.test/1".
-nlohmann::json to_json(const MaterialTests& tests);
-
-/// T.h5 (docs/user/formats.md, "T.h5 (material tests)"), whole or not at all.
-void write_material_tests(const std::filesystem::path& path, const DesignFile& design, const MaterialTests& tests,
-                          const std::string& command_line);
-
 }  // namespace perfora::optimize

@@ -1,6 +1,7 @@
 // What is here: the record and the file of material tests. What is not: the tests.
+#include "optimize/evaluate/material_tests_file.h"
+
 #include "optimize/evaluate/evaluation.h"
-#include "optimize/evaluate/material_tests.h"
 #include "results/formats.h"
 #include "results/material_file.h"
 

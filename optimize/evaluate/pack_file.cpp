@@ -1,9 +1,8 @@
-// What is here: the record and the file of a packing. What is not: how it is packed (evaluation.cpp), the format
-// (results/pack_file.h).
-#include "results/pack_file.h"
+// What is here: the record and the file of a packing. What is not: how it is packed.
+#include "optimize/evaluate/pack_file.h"
 
-#include "optimize/evaluate/evaluation.h"
 #include "results/formats.h"
+#include "results/pack_file.h"
 
 namespace perfora::optimize {
 

@@ -11,6 +11,7 @@
 
 #include "io/cancellation.h"
 #include "optimize/evaluate/material_tests.h"
+#include "optimize/evaluate/material_tests_file.h"
 
 namespace perfora::optimize {
 

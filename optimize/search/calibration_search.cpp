@@ -13,6 +13,7 @@
 #include "io/text.h"
 #include "optimize/campaign/work_folder.h"
 #include "optimize/evaluate/elastic_fit.h"
+#include "optimize/evaluate/material_tests_file.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"
 #include "solver/elastic/elastic.h"

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/layout.h"
+#include "geometry/wall.h"
 
 namespace perfora::optimize {
 namespace {

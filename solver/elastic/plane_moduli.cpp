@@ -1,10 +1,10 @@
 // What is here: engineering constants of a plane stiffness (docs/user/theory.md, "Elastic response"). What is not: how
 // the stiffness is found (elastic.cpp).
+#include "solver/elastic/plane_moduli.h"
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
-
-#include "solver/elastic/elastic.h"
 
 namespace perfora::solver {
 namespace {

@@ -1,6 +1,7 @@
 // What is here: the block of Table 1, bonded, for benchmarks. What is not: benchmarks.
 #pragma once
 
+#include "geometry/clip.h"
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
 #include "solver/bond_network.h"

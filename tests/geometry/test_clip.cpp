@@ -5,9 +5,11 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/clip.h"
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
 #include "geometry/random.h"
+#include "geometry/wall.h"
 
 namespace perfora::geometry {
 namespace {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "geometry/layout.h"
+#include "geometry/wall.h"
 #include "io/error.h"
 
 namespace perfora::geometry {

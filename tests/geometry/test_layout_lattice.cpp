@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/layout.h"
+#include "geometry/wall.h"
 #include "io/error.h"
 
 namespace perfora::geometry {

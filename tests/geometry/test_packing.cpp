@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "geometry/make_packing.h"
+#include "geometry/packing.h"
 #include "io/error.h"
 #include "tests/geometry/brute_force.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/cell_grid.h"
+#include "geometry/clip.h"
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
 

@@ -6,6 +6,7 @@
 
 #include "geometry/layout.h"
 #include "geometry/random.h"
+#include "geometry/wall.h"
 
 namespace perfora::geometry {
 namespace {

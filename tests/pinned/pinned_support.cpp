@@ -232,7 +232,10 @@ std::vector<std::string> finished_in(const fs::path& folder) {
   for (const std::string& line : journal_lines(folder)) {
     const json event = json::parse(line.substr(line.find('{')));
     const std::string what = event.at("event");
-    if (what == "evaluation" || what == "point") names.push_back(event.at("key").dump());
+    // By what was asked, not by its key: keys may be made of less than they were.
+    const bool asked = what == "evaluation" && event.contains("request");
+    if (what == "point" || (what == "evaluation" && !asked)) names.push_back(event.at("key").dump());
+    if (asked) names.push_back(event.at("request").at("design").dump() + event.at("request").at("replicate").dump());
     if (what == "replicate") names.push_back(event.at("evaluation").at("replicate").dump());
   }
   return names;

@@ -63,7 +63,8 @@ std::string comparable_text(const std::string& text, const std::string& pinned);
 
 /// Lines of a journal; the program keeps finished work in those with the event `evaluation`, `replicate` or `point`.
 std::vector<std::string> journal_lines(const std::filesystem::path& folder);
-/// Names of what is finished in a journal, in its order: keys, or numbers of replicates.
+/// Names of what is finished in a journal, in its order: designs with their replicates, keys of points, or numbers of
+/// replicates.
 std::vector<std::string> finished_in(const std::filesystem::path& folder);
 
 }  // namespace perfora::test

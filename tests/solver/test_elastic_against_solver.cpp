@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/clip.h"
 #include "geometry/make_packing.h"
 #include "solver/elastic/elastic.h"
 #include "solver/elastic/first_yield.h"

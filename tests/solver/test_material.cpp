@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/make_packing.h"
+#include "solver/crack_length.h"
 #include "solver/material_test.h"
 #include "tests/solver/sample_packings.h"
 

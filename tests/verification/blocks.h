@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/clip.h"
 #include "geometry/layout.h"
 #include "geometry/make_packing.h"
 #include "solver/elastic/elastic.h"

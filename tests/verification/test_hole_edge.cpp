@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/clip.h"
 #include "tests/verification/blocks.h"
 #include "tests/verification/checks.h"
 #include "tests/verification/hole_array_solution.h"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "geometry/size_law.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/design.h"
 #include "optimize/search/calibration.h"

@@ -4,6 +4,7 @@
 
 #include "optimize/evaluate/elastic_fit.h"
 #include "optimize/evaluate/material_tests.h"
+#include "optimize/evaluate/material_tests_file.h"
 #include "solver/elastic/elastic.h"
 
 namespace perfora::optimize {

@@ -9,6 +9,7 @@
 
 #include "optimize/evaluate/evaluation.h"
 #include "solver/run.h"
+#include "solver/run_setup.h"
 #include "tests/optimize/evaluate/design_support.h"
 
 namespace perfora::optimize {

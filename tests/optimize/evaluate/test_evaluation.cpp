@@ -1,6 +1,8 @@
 // What is here: the whole way of one small design: packing files, run files, resume. Expected: agreement between ways
 // that must agree bit for bit.
 #include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/pack_file.h"
+#include "optimize/evaluate/request.h"
 
 #include <gmock/gmock.h>
 
