@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "io/text.h"
 #include "optimize/search/study_arms.h"
 #include "tests/optimize/search/study_support.h"
 
@@ -73,10 +74,10 @@ TEST_F(StudyFile, MapsTheUnitCubeOntoTheBoundsAndBack) {
 }
 
 TEST_F(StudyFile, RoundsToTwelveDigits) {
-  EXPECT_EQ(rounded(0.1 + 0.2), 0.3);
-  EXPECT_EQ(rounded(1.23456789012345e-3), 1.23456789012e-3);
-  EXPECT_EQ(rounded(0.0), 0.0);
-  EXPECT_EQ(rounded(-2.0 / 3.0), -0.666666666667);
+  EXPECT_EQ(io::rounded(0.1 + 0.2), 0.3);
+  EXPECT_EQ(io::rounded(1.23456789012345e-3), 1.23456789012e-3);
+  EXPECT_EQ(io::rounded(0.0), 0.0);
+  EXPECT_EQ(io::rounded(-2.0 / 3.0), -0.666666666667);
 }
 
 TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
