@@ -10,6 +10,7 @@
 #include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
+#include "report/curve_mean.h"
 #include "report/curve_panel.h"
 #include "report/search_panel.h"
 

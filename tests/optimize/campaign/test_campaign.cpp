@@ -103,13 +103,13 @@ class CampaignTest : public ::testing::Test {
     made.command_line = "count";
     made.make_executor = [this] {
       return make_calling_executor([this](const Request& request) {
-        if (++asked_ == stop_after_) source_.request();
+        if (++asked_ == stop_after_) source_->request();
         return Counting::plateau(request);
       });
     };
     stop_after_ = stop_after;
-    source_ = io::CancellationSource();
-    made.cancellation = source_.token();
+    source_ = std::make_unique<io::CancellationSource>();
+    made.cancellation = source_->token();
     return made;
   }
 
@@ -123,7 +123,7 @@ class CampaignTest : public ::testing::Test {
 
   DesignFolder folder_;
   int asked_ = 0, stop_after_ = 0;
-  io::CancellationSource source_;
+  std::unique_ptr<io::CancellationSource> source_;
 };
 
 TEST_F(CampaignTest, AsksUntilNothingIsLeft) {
