@@ -1,12 +1,14 @@
 // What is here: `perfora calibrate`: bond parameters for wanted constants of the material. What is not: the search
-// (optimize/search/calibration.h), the chart (report/plot_reachable.cpp).
+// (optimize/search/calibration_run.h), the chart (campaign_pictures.h).
 #include <fmt/format.h>
 
+#include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/workers.h"
 #include "io/error.h"
 #include "io/text.h"
-#include "optimize/search/calibration.h"
+#include "optimize/search/calibration_run.h"
 #include "report/plot.h"
 
 namespace perfora::app {
@@ -20,6 +22,7 @@ struct CalibrateFlags {
   CommonFlags common;
   std::string file, output;
   bool resume = false;
+  int workers = 0;
 };
 
 int calibrate(const CalibrateFlags& flags) {
@@ -36,12 +39,14 @@ int calibrate(const CalibrateFlags& flags) {
   options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
+  const int side_by_side = flags.workers > 0 ? flags.workers : options.threads;
+  options.make_executor =
+      worker_executor(optimize::calibration_workers(calibration, side_by_side), flags.common.thread_count());
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
   progress.finish(fmt::format("{}, {}", result.reason, io::duration(result.seconds)));
   const auto record = optimize::to_json(result);
   if (result.status != results::RunStatus::stopped) {
-    if (result.points.size() > fewest_points)
-      report::plot_reachable(options.folder / "result.json", options.folder / "reachable.png");
+    if (result.points.size() > fewest_points) draw_campaign(options.folder, options.folder / "reachable.png");
     if (std::filesystem::exists(options.folder / "confirmation.h5"))
       report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
   }
@@ -64,6 +69,7 @@ void add_calibrate(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder to write (default: CALIBRATION's name + -calibration)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Continue a calibration that was stopped or killed");
+  add_workers_flag(*command, flags->workers, "");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
 }

@@ -14,7 +14,7 @@
 #include "io/text.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/estimate.h"
-#include "optimize/search/calibration.h"
+#include "optimize/search/calibration_search.h"
 #include "optimize/search/study.h"
 #include "results/summary_text.h"
 

@@ -1,5 +1,5 @@
 // What is here: `perfora correlate`: do cheap sweeps rank the same cases as an expensive one does? What is not: the
-// comparison (optimize/campaign/sweep_record.h), drawing (report/).
+// comparison (optimize/campaign/sweep_comparison.h), drawing (report/).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "optimize/campaign/sweep.h"
-#include "optimize/campaign/sweep_record.h"
+#include "optimize/campaign/sweep_comparison.h"
 #include "report/plot_correlation.h"
 
 namespace perfora::app {
@@ -40,7 +40,7 @@ std::string interval_text(const optimize::RankCorrelation& correlation) {
 /// "fidelity-cell, 1 replicate a case"
 std::string with_replicates(const SweepRecord& sweep) {
   int fewest = sweep.cases.front().completed, most = fewest;
-  for (const SweepRecord::Case& one : sweep.cases) {
+  for (const results::SweepCase& one : sweep.cases) {
     fewest = std::min(fewest, one.completed);
     most = std::max(most, one.completed);
   }
@@ -91,11 +91,11 @@ int correlate(const CorrelateFlags& flags) {
   if (measures.empty())
     throw io::InputError({"--measures", 0, ""}, "no result is named", "names such as plateau_stress", "");
   if (!flags.output.empty()) check_new_output(flags.output, flags.common.force);
-  const SweepRecord reference = optimize::read_sweep_record(flags.reference);
+  const SweepRecord reference = optimize::read_completed_sweep(flags.reference);
   std::vector<Comparison> comparisons;
   nlohmann::json entries = nlohmann::json::array();
   for (const std::string& path : flags.sweeps) {
-    Comparison one{optimize::read_sweep_record(path), {}};
+    Comparison one{optimize::read_completed_sweep(path), {}};
     log_warnings(optimize::differences(reference, one.sweep));
     one.measures = optimize::compare_sweeps(reference, one.sweep, measures, flags.only);
     entries.push_back(optimize::to_json(one.sweep, one.measures));

@@ -3,20 +3,17 @@
 // (optimize/search/study_run.h), drawing (report/).
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/outputs.h"
 #include "app/workers.h"
-#include "geometry/layout.h"
 #include "io/hdf5.h"
 #include "io/text.h"
 #include "optimize/evaluate/evaluation.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
-#include "report/plot_study.h"
 
 namespace perfora::app {
 
@@ -80,95 +77,9 @@ results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run)
   return evaluation.status;
 }
 
-using optimize::Candidate;
-using optimize::Study;
-
-geometry::PerforationLayout layout_of(const optimize::DesignFile& design) {
-  return geometry::place_perforations(design.design().layout, design.design().seeds.effective(0).layout);
-}
-
-/// Curves on the fresh seeds where they were run, otherwise of the search.
-std::vector<const optimize::Evaluation*> shown(optimize::StudyRun& run, const Candidate& candidate) {
-  const auto& keys = run.study().keys;
-  const auto fresh = run.known(candidate, keys.replicates, keys.final_replicates);
-  return fresh.empty() ? run.known(candidate, 0, keys.replicates) : fresh;
-}
-
-std::vector<report::StudyCurve> curves(const std::vector<const optimize::Evaluation*>& evaluations) {
-  std::vector<report::StudyCurve> curves;
-  for (const auto* evaluation : evaluations)
-    if (optimize::usable(*evaluation)) curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
-  return curves;
-}
-
-void add_points(report::StudyPicture& picture, const optimize::StudyRun& run) {
-  for (const optimize::Trace& trace : run.plan().traces)
-    for (const optimize::Visit& visit : trace.visits) {
-      if (!visit.answered) continue;
-      report::StudyEvaluation point;
-      point.number = static_cast<int>(picture.evaluations.size()) + 1;
-      point.arm = run.study().arms[static_cast<std::size_t>(trace.arm)].name + (trace.refine ? " (refine)" : "");
-      point.values = visit.candidate->values;
-      point.feasible = visit.candidate->violation <= 0.0;
-      if (visit.detail.valid) point.score = visit.score;
-      if (visit.candidate == run.plan().best && picture.best_number == 0) picture.best_number = point.number;
-      picture.evaluations.push_back(std::move(point));
-    }
-}
-
-void add_facts(report::StudyPicture& picture, const optimize::StudyRun& run) {
-  const Study& study = run.study();
-  const Candidate& best = *run.plan().best;
-  const Candidate& start = *run.plan().start.candidate;
-  const auto& schema = study.start->schema();
-  for (const optimize::DesignChange& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
-    picture.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::readable(choice.value),
-                             io::readable(schema.find(choice.key)->get())});
-  for (std::size_t k = 0; k < study.variables.size(); ++k) {
-    const auto& variable = study.variables[k];
-    picture.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
-                             io::quantity(best.values[k], variable.dimension),
-                             io::quantity(start.values[k], variable.dimension)});
-  }
-  picture.facts.push_back({"thinnest wall", io::quantity(best.layout.thinnest_wall, io::Dimension::length),
-                           io::quantity(start.layout.thinnest_wall, io::Dimension::length)});
-  picture.facts.push_back({"porosity", io::quantity(best.layout.porosity, io::Dimension::ratio),
-                           io::quantity(start.layout.porosity, io::Dimension::ratio)});
-  const optimize::Score& start_score = run.plan().start.detail;
-  picture.facts.push_back(
-      {"score", io::number(run.plan().best_score.value), start_score.valid ? io::number(start_score.value) : ""});
-}
-
-report::StudyPicture picture_of(optimize::StudyRun& run) {
-  const Study& study = run.study();
-  const optimize::Plan& plan = run.plan();
-  report::StudyPicture picture;
-  picture.title = study.file.stem().string();
-  picture.subtitle =
-      fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
-                  study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
-  picture.target = study.target.plateau_stress;
-  picture.window_start = study.target.window[0];
-  picture.window_end = study.target.window[1];
-  add_points(picture, run);
-  const auto best = shown(run, *plan.best);
-  const auto start = shown(run, *plan.start.candidate);
-  const auto best_score = optimize::score_of(study.target, best), start_score = optimize::score_of(study.target, start);
-  picture.best = curves(best);
-  picture.start = curves(start);
-  picture.best_plateau = best_score.plateau_mean;
-  if (best_score.replicates > 1) picture.best_plateau_deviation = best_score.plateau_std;
-  if (start_score.replicates > start_score.failed) picture.start_plateau = start_score.plateau_mean;
-  if (picture.start_plateau && start_score.replicates > 1) picture.start_plateau_deviation = start_score.plateau_std;
-  picture.best_layout = layout_of(optimize::design_of(study, *plan.best));
-  picture.start_layout = layout_of(*study.start);
-  add_facts(picture, run);
-  return picture;
-}
-
-void draw(optimize::StudyRun& run) {
+void draw(const optimize::StudyRun& run) {
   const fs::path& folder = run.options().folder;
-  report::plot_study(picture_of(run), folder / "study.png");
+  draw_campaign(folder, folder / "study.png");
   if (!fs::exists(folder / "best.h5")) return;
   report::PlotOptions options;
   options.title = "best design of " + run.study().file.stem().string();
@@ -183,7 +94,6 @@ int optimize_study(const OptimizeFlags& flags) {
   optimize::StudyRun run(std::move(study), options);
   announce(run.study());
   run.run();
-  optimize::write_results(run);
   auto status = run.status();
   if (status == results::RunStatus::completed && !flags.no_run_file) {
     const auto best = run_best(flags, run);

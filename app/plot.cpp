@@ -1,11 +1,12 @@
-// What is here: `perfora plot`: R.h5, P.h5, T.h5 or an elastic answer -> picture; several R.h5 in one. What is not:
-// drawing (report).
+// What is here: `perfora plot`: R.h5, P.h5, T.h5, an elastic answer or a folder of work -> picture; several R.h5 in
+// one. What is not: drawing (report).
 #include "report/plot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
@@ -65,8 +66,21 @@ std::vector<report::LabelledRun> read_runs(const PlotFlags& flags) {
   return runs;
 }
 
+/// A study, sweep, ensemble or calibration.
+void draw_folder(const PlotFlags& flags, const fs::path& folder, const fs::path& output) {
+  if (flags.inputs.size() > 1)
+    throw io::InputError({folder.string(), 0, ""}, "several files are compared as runs, and this is a folder", "",
+                         "give run files of perfora evaluate, or one folder alone");
+  if (!flags.collapse) return draw_campaign(folder, output, flags.title);
+  if (!draw_collapse(folder, output, flags.title))
+    throw io::InputError({folder.string(), 0, ""}, "no run file was kept here, and --collapse draws their frames", "",
+                         "run the sweep with run_files = true under [sweep]");
+}
+
 void draw(const PlotFlags& flags, const fs::path& output) {
   const fs::path input = flags.inputs.front();
+  for (const fs::path one : flags.inputs)
+    if (fs::is_directory(one)) return draw_folder(flags, one, output);
   report::PlotOptions options;
   options.title = flags.title;
   if (flags.inputs.size() > 1 || flags.collapse) {
@@ -88,10 +102,16 @@ void draw(const PlotFlags& flags, const fs::path& output) {
     report::plot_run(input, output, options);
 }
 
+/// "DIR" of "DIR/": its name is that of the picture.
+fs::path without_slash(const fs::path& path) {
+  return path.has_filename() ? path : path.parent_path();
+}
+
 int plot(const PlotFlags& flags) {
   flags.common.apply();
   remove_stop_handlers();
-  const std::string name = flags.inputs.size() > 1 ? "comparison.png" : default_name(flags.inputs.front(), ".png");
+  const std::string name =
+      flags.inputs.size() > 1 ? "comparison.png" : default_name(without_slash(flags.inputs.front()), ".png");
   const auto output = output_or_default(flags.output, name);
   check_new_output(output, flags.common.force);
   draw(flags, output);
@@ -105,18 +125,20 @@ int plot(const PlotFlags& flags) {
 
 void add_plot(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PlotFlags>();
-  CLI::App* command =
-      program.add_subcommand("plot", "Draw a run or several, a packing, material tests or an elastic answer");
+  CLI::App* command = program.add_subcommand(
+      "plot", "Draw a run or several, a packing, material tests, an elastic answer, or a folder of work");
   command
-      ->add_option(
-          "FILE", flags->inputs,
-          "Run file R.h5 or several of them, packing file P.h5, material tests T.h5 or file of evaluate --elastic")
+      ->add_option("FILE", flags->inputs,
+                   "Run file R.h5 or several of them, packing file P.h5, material tests T.h5, file of evaluate "
+                   "--elastic, or the "
+                   "folder of a study, sweep, ensemble or calibration, finished or not")
       ->required();
   command->add_option("-o,--output", flags->output,
                       "Picture: .png, .svg or .pdf (default: FILE's name + .png, comparison.png of several)");
   command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name, or how many runs)")
       ->type_name("TEXT");
-  command->add_flag("--collapse", flags->collapse, "Of runs: their frames side by side instead of curves");
+  command->add_flag("--collapse", flags->collapse,
+                    "Of runs, and of a sweep that keeps its run files: frames side by side instead of curves");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });
 }

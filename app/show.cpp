@@ -24,8 +24,10 @@ void add_show(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<ShowFlags>();
   CLI::App* command = program.add_subcommand("show", "Print the summary of a file that perfora wrote");
   command
-      ->add_option("FILE", flags->file,
-                   "A file that perfora wrote (.h5, .json, .jsonl, .toml), or the folder of a study, sweep or ensemble")
+      ->add_option(
+          "FILE", flags->file,
+          "A file that perfora wrote (.h5, .json, .jsonl, .toml), or the folder of a study, sweep, ensemble or "
+          "calibration")
       ->required();
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] {

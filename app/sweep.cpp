@@ -3,25 +3,17 @@
 // (report/).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
+#include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/workers.h"
-#include "io/text.h"
 #include "optimize/campaign/sweep_result.h"
-#include "optimize/search/study.h"
-#include "report/plot.h"
-#include "report/plot_sweep.h"
 
 namespace perfora::app {
 
 namespace {
 
-namespace fs = std::filesystem;
 using optimize::Sweep;
-using optimize::SweepCase;
 
 struct SweepFlags {
   CommonFlags common;
@@ -43,99 +35,6 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   return options;
 }
 
-/// Number of `text` in `list`, appended where it is new.
-int place_of(std::vector<std::string>& list, const std::string& text) {
-  const auto found = std::find(list.begin(), list.end(), text);
-  if (found == list.end()) list.push_back(text);
-  return static_cast<int>(std::find(list.begin(), list.end(), text) - list.begin());
-}
-
-report::SweepPoint point_of(const optimize::SweepRun& run, const SweepCase& one) {
-  report::SweepPoint point;
-  std::vector<std::vector<double>> reached;  // by replicate
-  for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate)
-    if (const optimize::Evaluation* evaluation = run.completed(one, replicate)) {
-      point.curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
-      reached.push_back(optimize::measures_of(*evaluation));
-    }
-  const auto& names = optimize::sweep_measures();
-  for (const std::string& name : run.sweep().measures) {
-    const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    report::SweepValue value;
-    for (const std::vector<double>& all : reached) value.replicates.push_back(all[place]);
-    const results::Statistic statistic = results::statistic_of(name, value.replicates);
-    value.mean = statistic.mean;
-    value.half_interval = statistic.confidence_95;
-    point.values.push_back(std::move(value));
-  }
-  return point;
-}
-
-/// What a case is called along x and among the series: one key of a grid runs along x, everything else that its label
-/// says makes the series; rows without a grid stand along x under their names.
-struct Names {
-  std::string axis, place, series;
-};
-Names names_of(const Sweep& sweep, const SweepCase& one) {
-  if (!one.group.empty()) return {one.settings.back().key, io::readable(one.settings.back().value), ""};
-  for (const optimize::DesignChange& setting : one.settings) {
-    if (setting.key != sweep.grid_key) continue;
-    const std::string place = io::readable(setting.value);
-    const std::string part = io::after_section(setting.key) + " " + place;
-    std::string series = one.label;
-    if (const auto at = series.rfind(part); at != std::string::npos) {
-      const std::size_t before = at >= 2 ? at - 2 : 0;  // with the comma before it, or behind it where it comes first
-      series.erase(before, part.size() + 2);
-    }
-    return {setting.key, place, series};
-  }
-  return {"", one.label, ""};
-}
-
-report::SweepPicture picture_of(const optimize::SweepRun& run) {
-  const Sweep& sweep = run.sweep();
-  report::SweepPicture picture;
-  picture.title = sweep.file.stem().string();
-  picture.subtitle =
-      fmt::format("{} cases, {} replicate{} each; {}. Large: mean and its 95 % interval; small: replicates{}",
-                  sweep.cases.size(), sweep.keys.replicates, sweep.keys.replicates == 1 ? "" : "s", run.reason(),
-                  sweep.keys.base ? "; grey: the design itself" : "");
-  picture.measures = sweep.measures;
-  std::vector<std::string> groups;
-  for (const SweepCase& one : sweep.cases) {
-    if (!one.problem.empty()) continue;
-    if (one.number == 0) {
-      picture.base.push_back(point_of(run, one));
-      continue;
-    }
-    const auto g = static_cast<std::size_t>(place_of(groups, one.group));
-    if (g == picture.groups.size()) picture.groups.emplace_back();
-    report::SweepGroup& group = picture.groups[g];
-    const Names names = names_of(sweep, one);
-    group.label = names.axis;
-    report::SweepPoint point = point_of(run, one);
-    point.place = place_of(group.places, names.place);
-    point.series = place_of(group.series, names.series);
-    group.points.push_back(std::move(point));
-  }
-  return picture;
-}
-
-/// collapse.png: the first replicate of every case whose run file was kept.
-bool draw_collapse(const optimize::SweepRun& run) {
-  std::vector<report::LabelledRun> rows;
-  for (const SweepCase& one : run.sweep().cases) {
-    if (!run.known(one, 0)) continue;
-    const fs::path file = run.options().folder / optimize::EvaluationQueue::run_file(one.request(0));
-    if (fs::exists(file)) rows.push_back({one.label, results::read_run(file)});
-  }
-  report::PlotOptions options;
-  options.title = "How the cases of " + run.sweep().file.stem().string() + " collapse (replicate 0)";
-  if (rows.empty()) return false;
-  report::plot_collapse(rows, run.options().folder / "collapse.png", options);
-  return true;
-}
-
 int sweep_designs(const SweepFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides(), flags.only);
@@ -149,9 +48,8 @@ int sweep_designs(const SweepFlags& flags) {
                     "runs the rest and shows all",
                     run.sweep().left_out, options.folder.string()));
   run.run();
-  optimize::write_results(run);
-  report::plot_sweep(picture_of(run), options.folder / "sweep.png");
-  const bool collapse = draw_collapse(run);
+  draw_campaign(options.folder, options.folder / "sweep.png");
+  const bool collapse = draw_collapse(options.folder, options.folder / "collapse.png");
   if (run.sweep().keys.run_files && !collapse)
     io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");
   const auto record = optimize::to_json(run);

@@ -32,9 +32,8 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
       .add_option("--workers", workers,
-                  fmt::format("Evaluations at once, each in a process of its own (default: as the {} says, or one a "
-                              "core)",
-                              what))
+                  fmt::format("Evaluations at once, each in a process of its own (default: {}one a core)",
+                              what.empty() ? "" : fmt::format("as the {} says, or ", what)))
       ->check(CLI::Range(1, most_workers))
       ->type_name("W");
 }

@@ -169,6 +169,64 @@ CsvTable parse_csv(std::string_view text, const std::string& name, const std::ve
   return table;
 }
 
+namespace {
+
+/// Fields of one line, without their quotes.
+std::vector<std::string> quoted_fields(std::string_view line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (quoted && c == '"' && k + 1 < line.size() && line[k + 1] == '"')
+      fields.back() += line[++k];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::size_t TextTable::column(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw InputError({path.string(), 1, ""}, "has no column " + name, "", "check the path");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+TextTable read_text_table(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  TextTable table;
+  table.path = path;
+  int number = 0;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    std::vector<std::string> fields = quoted_fields(std::string_view(text).substr(start, end - start));
+    ++number;
+    start = end + 1;
+    if (number == 1) {
+      table.names = std::move(fields);
+      continue;
+    }
+    if (fields.size() != table.names.size())
+      throw InputError({path.string(), number, ""},
+                       fmt::format("has {} fields, the first line names {}", fields.size(), table.names.size()), "",
+                       "perfora writes this file anew when its work goes on");
+    table.rows.push_back(std::move(fields));
+  }
+  if (table.names.empty()) throw InputError({path.string(), 0, ""}, "is empty", "", "check the path");
+  return table;
+}
+
+double number_in(const std::string& field) {
+  char* end = nullptr;
+  const double value = std::strtod(field.c_str(), &end);
+  return field.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
 std::string csv_quoted(std::string_view text) {
   std::string quoted(1, '"');
   for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);

@@ -26,6 +26,21 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::stri
 CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
                    std::size_t maximum_rows);
 
+/// A table that perfora wrote: every field as text.
+struct TextTable {
+  std::filesystem::path path;
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;  ///< each as long as names
+
+  /// Place of the column called so. Throws InputError where there is none.
+  std::size_t column(const std::string& name) const;
+};
+/// Reads lines of fields that are quoted as csv_quoted does where they need it; the first line names the columns.
+/// Throws InputError for a missing or empty file and a line with a wrong number of fields.
+TextTable read_text_table(const std::filesystem::path& path);
+/// The number in a field; NaN for an empty one or one that is no number.
+double number_in(const std::string& field);
+
 /// `text` as one field of a CSV line: in quotes, quotes inside it doubled (RFC 4180).
 std::string csv_quoted(std::string_view text);
 

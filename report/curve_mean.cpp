@@ -12,7 +12,7 @@ constexpr double smoothing_strain = 0.02;
 constexpr double smoothing_start = 0.03;
 constexpr std::size_t grid_points = 600;
 
-double value_at(const StudyCurve& curve, double strain) {
+double value_at(const results::Curve& curve, double strain) {
   const auto after = std::lower_bound(curve.strain.begin(), curve.strain.end(), strain);
   if (after == curve.strain.begin()) return curve.stress.front();
   if (after == curve.strain.end()) return curve.stress.back();
@@ -24,10 +24,10 @@ double value_at(const StudyCurve& curve, double strain) {
 
 }  // namespace
 
-StudyCurve smoothed_mean(const std::vector<StudyCurve>& curves) {
-  StudyCurve mean;
+results::Curve smoothed_mean(const std::vector<results::Curve>& curves) {
+  results::Curve mean;
   double end = 0.0;
-  for (const StudyCurve& curve : curves)
+  for (const results::Curve& curve : curves)
     if (!curve.strain.empty()) end = end == 0.0 ? curve.strain.back() : std::min(end, curve.strain.back());
   if (end <= 0.0) return mean;
   std::vector<double> sum = {0.0};
@@ -35,7 +35,7 @@ StudyCurve smoothed_mean(const std::vector<StudyCurve>& curves) {
     const double strain = end * static_cast<double>(k) / (grid_points - 1);
     double total = 0.0;
     double count = 0.0;
-    for (const StudyCurve& curve : curves)
+    for (const results::Curve& curve : curves)
       if (!curve.strain.empty()) {
         total += value_at(curve, strain);
         count += 1.0;

@@ -3,15 +3,12 @@
 
 #include <vector>
 
-namespace perfora::report {
+#include "results/curve.h"
 
-/// One curve; engineering strain, Pa; equally long.
-struct StudyCurve {
-  std::vector<double> strain, stress;
-};
+namespace perfora::report {
 
 /// Mean over the replicates, up to the shortest of them, as a running mean over 2 % strain that narrows towards the
 /// first peak (below 3 % strain nothing is smoothed: the peak is no spike). Empty without curves.
-StudyCurve smoothed_mean(const std::vector<StudyCurve>& curves);
+results::Curve smoothed_mean(const std::vector<results::Curve>& curves);
 
 }  // namespace perfora::report

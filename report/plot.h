@@ -13,6 +13,10 @@
 #include "results/pack_file.h"
 #include "results/run_file.h"
 
+namespace perfora::results {
+struct CalibrationRecord;
+}
+
 namespace perfora::report {
 
 struct PlotOptions {
@@ -68,9 +72,9 @@ void draw_packing(const results::PackResult& pack, const std::filesystem::path& 
 void plot_material_tests(const std::filesystem::path& test_file, const std::filesystem::path& out,
                          const PlotOptions& options = {});
 
-/// result.json of a calibration -> chart: compressive over tensile strength against delta_t0/delta_n0, a curve a
-/// zeta_max, with what was wanted and found. Throws io::InputError for another file.
-void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
+/// Calibration -> chart: compressive over tensile strength against delta_t0/delta_n0, a curve a zeta_max, with what was
+/// wanted and found. Throws io::InputError for an extension other than .png, .svg, .pdf.
+void plot_reachable(const results::CalibrationRecord& record, const std::filesystem::path& out,
                     const PlotOptions& options = {});
 
 /// Elastic answer -> picture: the block coloured by how near each disc is to its first yield when the block yields

@@ -28,7 +28,7 @@ struct Drawn {
   const LabelledRun* row = nullptr;
   Colour colour;
   std::vector<double> strain, stress;  ///< %, kPa
-  StudyCurve smooth;                   ///< %, kPa
+  results::Curve smooth;               ///< %, kPa
 };
 
 /// The k-th colour; darker with every turn through the palette.

@@ -1,5 +1,5 @@
 // What is here: the picture of sweeps compared case by case. Plain data in, picture out. What is not: the comparison
-// (optimize/campaign/sweep_record.h).
+// (optimize/campaign/sweep_comparison.h).
 #pragma once
 
 #include <filesystem>

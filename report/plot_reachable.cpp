@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 
-#include "io/error.h"
-#include "io/journal.h"
 #include "io/text.h"
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/plot.h"
+#include "results/calibration_record.h"
 
 namespace perfora::report {
 namespace {
@@ -27,23 +25,13 @@ struct Point {
 };
 using Curves = std::map<double, std::vector<Point>>;  ///< by zeta_max, each by rising shear_ratio
 
-Curves curves_of(const nlohmann::json& result) {
+Curves curves_of(const results::CalibrationRecord& record) {
   Curves curves;
-  for (const auto& p : result.at("points")) {
-    if (!p.at("strength_ratio").is_number()) continue;
-    curves[p.at("rupture_delay").get<double>()].push_back(
-        {p.at("shear_ratio").get<double>(), p.at("strength_ratio").get<double>(), p.at("of_chart").get<bool>()});
-  }
+  for (const auto& p : record.points) curves[p.rupture_delay].push_back({p.shear_ratio, p.strength_ratio, p.of_chart});
   for (auto& [delay, points] : curves)
     std::sort(points.begin(), points.end(),
               [](const Point& a, const Point& b) { return a.shear_ratio < b.shear_ratio; });
   return curves;
-}
-
-std::optional<double> target_of(const nlohmann::json& result, const std::string& name) {
-  for (const auto& target : result.at("targets"))
-    if (target.at("name") == name) return target.at("wanted").get<double>();
-  return std::nullopt;
 }
 
 void draw_legend(Canvas& canvas, const Curves& curves, bool with_target) {
@@ -67,14 +55,9 @@ void draw_legend(Canvas& canvas, const Curves& curves, bool with_target) {
 
 }  // namespace
 
-void plot_reachable(const std::filesystem::path& result_file, const std::filesystem::path& out,
+void plot_reachable(const results::CalibrationRecord& record, const std::filesystem::path& out,
                     const PlotOptions& options) {
-  const nlohmann::json result = nlohmann::json::parse(io::read_file(result_file), nullptr, false);
-  if (!result.is_object() || result.value("schema", "") != "perfora.calibrate/1")
-    throw io::InputError({result_file.string(), 0, ""}, "is not the result of a calibration", "",
-                         "give the result.json of `perfora calibrate`");
-  const Curves curves = curves_of(result);
-  const auto tensile = target_of(result, "tensile_strength"), compressive = target_of(result, "compressive_strength");
+  const Curves curves = curves_of(record);
   double low = 1e300, high = 0.0, bottom = 1e300, top = 0.0;
   for (const auto& [delay, points] : curves)
     for (const Point& p : points) {
@@ -83,9 +66,9 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
       bottom = std::min(bottom, p.ratio);
       top = std::max(top, p.ratio);
     }
-  if (compressive && tensile) {
-    bottom = std::min(bottom, *compressive / *tensile);
-    top = std::max(top, *compressive / *tensile);
+  if (record.wanted) {
+    bottom = std::min(bottom, *record.wanted);
+    top = std::max(top, *record.wanted);
   }
   if (!(high > 0.0)) low = 1.0, high = 10.0, bottom = 1.0, top = 10.0;
   Canvas canvas(out, page_width, page_height);
@@ -112,16 +95,11 @@ void plot_reachable(const std::filesystem::path& result_file, const std::filesys
     for (const Point& p : points)
       canvas.disc(chart.px(p.shear_ratio), chart.py(p.ratio), 6.0, p.of_chart ? colour : palette::paper, colour, 1.8);
   }
-  if (compressive && tensile) {
-    chart.horizontal(*compressive / *tensile, chart.x_axis().low, chart.x_axis().high, palette::ink, 2.0, {9.0, 6.0});
-    const auto& found = result.at("found");
-    if (found.at("critical_normal_stretch").is_number() && found.at("critical_normal_stretch").get<double>() > 0.0) {
-      const double ratio =
-          found.at("critical_shear_displacement").get<double>() / found.at("critical_normal_stretch").get<double>();
-      chart.vertical(ratio, palette::ink, 2.0, {9.0, 6.0});
-    }
+  if (record.wanted) {
+    chart.horizontal(*record.wanted, chart.x_axis().low, chart.x_axis().high, palette::ink, 2.0, {9.0, 6.0});
+    if (record.found) chart.vertical(*record.found, palette::ink, 2.0, {9.0, 6.0});
   }
-  draw_legend(canvas, curves, compressive && tensile);
+  draw_legend(canvas, curves, record.wanted.has_value());
   canvas.write();
 }
 

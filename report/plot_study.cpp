@@ -10,6 +10,7 @@
 #include "io/text.h"
 #include "report/block_picture.h"
 #include "report/canvas.h"
+#include "report/curve_mean.h"
 #include "report/curve_panel.h"
 #include "report/search_panel.h"
 
@@ -42,7 +43,7 @@ std::string replicate_text(const char* what, std::size_t count, const std::optio
   return text;
 }
 
-void draw_curves(Canvas& canvas, const StudyPicture& picture, const Box& box) {
+void draw_curves(Canvas& canvas, const results::StudyRecord& picture, const Box& box) {
   double x = box.x;
   if (!picture.best.empty())
     x = draw_curve_key(
@@ -52,11 +53,13 @@ void draw_curves(Canvas& canvas, const StudyPicture& picture, const Box& box) {
     draw_curve_key(
         canvas, x, box.y - 16.0, start_colour,
         replicate_text("start", picture.start.size(), picture.start_plateau, picture.start_plateau_deviation));
-  const StudyCurve best_mean = smoothed_mean(picture.best);
-  const StudyCurve start_mean = smoothed_mean(picture.start);
+  const results::Curve best_mean = smoothed_mean(picture.best);
+  const results::Curve start_mean = smoothed_mean(picture.start);
   std::vector<Series> series;
-  for (const StudyCurve& curve : picture.start) series.push_back({curve.strain, curve.stress, start_colour, 1.0, 0.28});
-  for (const StudyCurve& curve : picture.best) series.push_back({curve.strain, curve.stress, best_colour, 1.0, 0.28});
+  for (const results::Curve& curve : picture.start)
+    series.push_back({curve.strain, curve.stress, start_colour, 1.0, 0.28});
+  for (const results::Curve& curve : picture.best)
+    series.push_back({curve.strain, curve.stress, best_colour, 1.0, 0.28});
   series.push_back({start_mean.strain, start_mean.stress, start_colour, 2.6, 1.0});
   series.push_back({best_mean.strain, best_mean.stress, best_colour, 3.0, 1.0});
   CurveMarks marks;
@@ -73,7 +76,7 @@ Box room_for(const geometry::PerforationLayout& layout, double right, double bot
   return {right - layout.width * scale, bottom - layout.height * scale, layout.width * scale, layout.height * scale};
 }
 
-void draw_designs(Canvas& canvas, const StudyPicture& picture) {
+void draw_designs(Canvas& canvas, const results::StudyRecord& picture) {
   const double right = page_width - page_margin;
   constexpr double bottom = 560.0;
   double best_left = right;
@@ -96,7 +99,7 @@ void draw_designs(Canvas& canvas, const StudyPicture& picture) {
   }
 }
 
-void draw_fact_table(Canvas& canvas, const StudyPicture& picture) {
+void draw_fact_table(Canvas& canvas, const results::StudyRecord& picture) {
   constexpr double row_height = 33.0;
   constexpr double top = 626.0;
   const double right = page_width - page_margin;
@@ -108,7 +111,7 @@ void draw_fact_table(Canvas& canvas, const StudyPicture& picture) {
   canvas.text(right, top, "best", head);
   canvas.line(right_start, top + 11.0, right, top + 11.0, palette::soft_ink);
   double y = top + row_height;
-  for (const StudyPicture::Fact& fact : picture.facts) {
+  for (const results::StudyRecord::Fact& fact : picture.facts) {
     if (y > page_height - 22.0) break;
     const TextStyle name{.size = 17.0, .colour = palette::soft_ink};
     const TextStyle plain{.size = 17.0, .align = Align::right};
@@ -123,7 +126,7 @@ void draw_fact_table(Canvas& canvas, const StudyPicture& picture) {
 
 }  // namespace
 
-void plot_study(const StudyPicture& picture, const std::filesystem::path& out) {
+void plot_study(const results::StudyRecord& picture, const std::filesystem::path& out) {
   Canvas canvas(out, page_width, page_height);
   const TextStyle title{.size = 30.0, .bold = true};
   const TextStyle line{.size = 17.0, .colour = palette::soft_ink};

@@ -114,8 +114,8 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   }
 }
 
-void draw_curve(Chart& chart, const std::vector<StudyCurve>& curves, const Colour& colour, double thickness) {
-  StudyCurve mean = smoothed_mean(curves);
+void draw_curve(Chart& chart, const std::vector<results::Curve>& curves, const Colour& colour, double thickness) {
+  results::Curve mean = smoothed_mean(curves);
   for (double& value : mean.strain) value *= 100.0;
   for (double& value : mean.stress) value = std::max(1e-3 * value, 0.5 * chart.y_axis().low);
   chart.polyline(mean.strain, mean.stress, colour, thickness);
@@ -125,7 +125,7 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
   double highest = 0.0, lowest = std::numeric_limits<double>::infinity(), end = 0.0;
   for (const auto* points : {&group.points, &picture.base})
     for (const SweepPoint& point : *points) {
-      const StudyCurve mean = smoothed_mean(point.curves);
+      const results::Curve mean = smoothed_mean(point.curves);
       for (std::size_t k = 0; k < mean.strain.size(); ++k) {
         end = std::max(end, 100.0 * mean.strain[k]);
         highest = std::max(highest, 1e-3 * mean.stress[k]);

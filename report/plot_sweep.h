@@ -1,5 +1,5 @@
 // What is here: the picture of a sweep: for each group of cases its curves and its results with their scatter. Plain
-// data in, picture out. What is not: journals, sweeps (optimize/), which fill SweepPicture.
+// data in, picture out. What is not: what fills SweepPicture (sweep_picture.h).
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,10 @@ struct SweepValue {
 
 /// One case.
 struct SweepPoint {
-  int place = 0;                   ///< on the x axis of its group
-  int series = 0;                  ///< of its group
-  std::vector<StudyCurve> curves;  ///< a replicate each
-  std::vector<SweepValue> values;  ///< by measure
+  int place = 0;                       ///< on the x axis of its group
+  int series = 0;                      ///< of its group
+  std::vector<results::Curve> curves;  ///< a replicate each
+  std::vector<SweepValue> values;      ///< by measure
 };
 
 /// Cases that are drawn together: one row of the page.

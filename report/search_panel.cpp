@@ -16,21 +16,21 @@ namespace {
 constexpr double logarithmic_ratio = 20.0;
 constexpr std::size_t arms_in_key = 8;
 
-bool counts(const StudyEvaluation& evaluation) {
+bool counts(const results::StudyPoint& evaluation) {
   return evaluation.feasible && std::isfinite(evaluation.score);
 }
 
-std::vector<std::string> arms_of(const StudyPicture& picture) {
+std::vector<std::string> arms_of(const results::StudyRecord& picture) {
   std::vector<std::string> arms;
-  for (const StudyEvaluation& evaluation : picture.evaluations)
+  for (const results::StudyPoint& evaluation : picture.points)
     if (std::find(arms.begin(), arms.end(), evaluation.arm) == arms.end()) arms.push_back(evaluation.arm);
   return arms;
 }
 
-Axis score_axis(const StudyPicture& picture) {
+Axis score_axis(const results::StudyRecord& picture) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
-  for (const StudyEvaluation& evaluation : picture.evaluations)
+  for (const results::StudyPoint& evaluation : picture.points)
     if (counts(evaluation)) {
       if (evaluation.score > 0.0) least = std::min(least, evaluation.score);
       most = std::max(most, evaluation.score);
@@ -49,17 +49,17 @@ void cross(Canvas& canvas, double x, double y, const Colour& colour) {
   canvas.line(x - 4.0, y + 4.0, x + 4.0, y - 4.0, colour, 1.6);
 }
 
-void draw_incumbent(Chart& chart, const StudyPicture& picture, double end) {
-  const std::vector<double> incumbent = incumbent_scores(picture.evaluations);
+void draw_incumbent(Chart& chart, const results::StudyRecord& picture, double end) {
+  const std::vector<double> incumbent = incumbent_scores(picture.points);
   std::vector<double> x, y;
   for (std::size_t k = 0; k < incumbent.size(); ++k) {
     if (!std::isfinite(incumbent[k])) continue;
     const double level = std::max(incumbent[k], chart.y_axis().low);
     if (!y.empty()) {
-      x.push_back(picture.evaluations[k].number);
+      x.push_back(picture.points[k].number);
       y.push_back(y.back());
     }
-    x.push_back(picture.evaluations[k].number);
+    x.push_back(picture.points[k].number);
     y.push_back(level);
   }
   if (!y.empty()) {
@@ -97,15 +97,16 @@ class KeyRows {
   TextStyle style_{.size = 15.0, .colour = palette::soft_ink};
 };
 
-void draw_key(Canvas& canvas, const StudyPicture& picture, const std::vector<std::string>& arms, const Box& box) {
-  const auto has = [&](const auto& test) {
-    return std::any_of(picture.evaluations.begin(), picture.evaluations.end(), test);
-  };
+void draw_key(Canvas& canvas, const results::StudyRecord& picture, const std::vector<std::string>& arms,
+              const Box& box) {
+  const auto has = [&](const auto& test) { return std::any_of(picture.points.begin(), picture.points.end(), test); };
   KeyRows rows(canvas, box);
   rows.add(22.0, "best so far", [&](double x, double y) { canvas.line(x, y, x + 22.0, y, palette::ink, 2.0); });
-  if (has([](const StudyEvaluation& evaluation) { return !evaluation.feasible; }))
+  if (has([](const results::StudyPoint& evaluation) { return !evaluation.feasible; }))
     rows.add(10.0, "outside constraints", [&](double x, double y) { cross(canvas, x + 5.0, y, palette::soft_ink); });
-  if (has([](const StudyEvaluation& evaluation) { return evaluation.feasible && !std::isfinite(evaluation.score); }))
+  if (has([](const results::StudyPoint& evaluation) {
+        return evaluation.feasible && !std::isfinite(evaluation.score);
+      }))
     rows.add(10.0, "failed", [&](double x, double y) { cross(canvas, x + 5.0, y, palette::vermilion); });
   if (arms.size() == 1 && arms[0].empty()) return;
   for (std::size_t a = 0; a < arms.size(); ++a) {
@@ -122,8 +123,8 @@ void draw_key(Canvas& canvas, const StudyPicture& picture, const std::vector<std
   }
 }
 
-void draw_best(Canvas& canvas, const Chart& chart, const StudyPicture& picture) {
-  for (const StudyEvaluation& evaluation : picture.evaluations) {
+void draw_best(Canvas& canvas, const Chart& chart, const results::StudyRecord& picture) {
+  for (const results::StudyPoint& evaluation : picture.points) {
     if (evaluation.number != picture.best_number || !counts(evaluation)) continue;
     const double x = chart.px(evaluation.number);
     const double y = chart.py(std::max(evaluation.score, chart.y_axis().low));
@@ -147,25 +148,25 @@ void draw_best(Canvas& canvas, const Chart& chart, const StudyPicture& picture) 
 
 }  // namespace
 
-std::vector<double> incumbent_scores(const std::vector<StudyEvaluation>& evaluations) {
+std::vector<double> incumbent_scores(const std::vector<results::StudyPoint>& evaluations) {
   std::vector<double> incumbent;
   double least = std::numeric_limits<double>::quiet_NaN();
-  for (const StudyEvaluation& evaluation : evaluations) {
+  for (const results::StudyPoint& evaluation : evaluations) {
     if (counts(evaluation) && !(evaluation.score >= least)) least = evaluation.score;
     incumbent.push_back(least);
   }
   return incumbent;
 }
 
-void draw_search(Canvas& canvas, const StudyPicture& picture, const Box& box) {
+void draw_search(Canvas& canvas, const results::StudyRecord& picture, const Box& box) {
   int last = 1;
-  for (const StudyEvaluation& evaluation : picture.evaluations) last = std::max(last, evaluation.number);
+  for (const results::StudyPoint& evaluation : picture.points) last = std::max(last, evaluation.number);
   const std::vector<std::string> arms = arms_of(picture);
   Chart chart(canvas, box, {0.0, last + std::max(1.0, 0.03 * last), "candidate"}, score_axis(picture));
   chart.draw_axes();
   draw_incumbent(chart, picture, last);
   const double radius = last > 400 ? 2.6 : (last > 120 ? 3.6 : 5.0);
-  for (const StudyEvaluation& evaluation : picture.evaluations) {
+  for (const results::StudyPoint& evaluation : picture.points) {
     const auto arm = static_cast<std::size_t>(std::find(arms.begin(), arms.end(), evaluation.arm) - arms.begin());
     const Colour& colour = palette::series()[arm % palette::series().size()];
     if (counts(evaluation))

@@ -1,16 +1,13 @@
-// What is here: replicates of one design run and read back, and the statistics over them. The journal is the truth of
-// what is finished; ensemble.json and ensemble.csv follow
-// from it. What is not: one evaluation.
+// What is here: an ensemble as a campaign; its statistics and files. What is not: one evaluation.
 #include "optimize/campaign/ensemble.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "io/journal.h"
-#include "optimize/campaign/work_folder.h"
+#include "optimize/campaign/campaign.h"
 #include "optimize/evaluate/request.h"
 #include "results/measure_table.h"
 
@@ -20,67 +17,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-/// Names an ensemble whatever the number of replicates.
-std::string ensemble_key(const DesignFile& design) {
-  return make_request(design, 0).full_key();
-}
-
-fs::path journal_path(const fs::path& folder) {
-  return folder / "journal.jsonl";
-}
-
-/// Everything an ensemble may have left in `folder`.
-void remove_ensemble(const fs::path& folder) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name == "journal.jsonl" || name == "ensemble.json" || name == "ensemble.csv" || name.starts_with("replicate-"))
-      fs::remove_all(entry.path());
-  }
-}
-
-void prepare_folder(const EnsembleOptions& options) {
-  const fs::path& folder = options.folder;
-  if (!fs::exists(folder)) {
-    io::check_output(folder, options.force, options.resume);
-    fs::create_directory(folder);
-    return;
-  }
-  if (!fs::is_directory(folder))
-    throw io::InputError({folder.string(), 0, ""}, "is not a folder", "", "name a folder for the replicates with -o");
-  if (const std::string there = work_in(folder); !there.empty() && there != "ensemble")
-    throw io::InputError({folder.string(), 0, ""}, fmt::format("this folder holds a {}, not an ensemble", there), "",
-                         "name another folder with -o");
-  if (options.resume) return;
-  if (options.force) {
-    remove_ensemble(folder);
-    return;
-  }
-  if (!fs::is_empty(folder))
-    throw io::InputError(
-        {folder.string(), 0, ""}, "the folder is not empty", "",
-        "--resume keeps the replicates that are finished, --force throws them away, or name another folder with -o");
-}
-
-/// Finished replicates of the journal. The first event names the design; another one's journal is refused.
-std::vector<Evaluation> read_finished(io::Journal& journal, const std::string& key, const fs::path& path) {
-  std::vector<Evaluation> finished;
-  if (journal.events().empty()) {
-    journal.append(json({{"event", "ensemble"}, {"key", key}}).dump());
-    return finished;
-  }
-  for (const std::string& text : journal.events()) {
-    const json event = json::parse(text);
-    if (event.value("event", "") == "ensemble" && event.value("key", "") != key)
-      throw io::InputError(
-          {path.string(), 0, ""},
-          "this ensemble was made of another design, of other settings or by a program that gives other results", "",
-          "resume with the same design file and flags, or start anew with --force or in another folder");
-    if (event.value("event", "") == "replicate")
-      finished.push_back(results::evaluation_from_json(event.at("evaluation")));
-  }
-  return finished;
-}
 
 std::vector<results::Statistic> statistics_of(const std::vector<Evaluation>& replicates) {
   std::vector<results::Statistic> statistics;
@@ -93,15 +29,109 @@ std::vector<results::Statistic> statistics_of(const std::vector<Evaluation>& rep
   return statistics;
 }
 
-void conclude(Ensemble& ensemble) {
-  const auto completed = std::count_if(ensemble.replicates.begin(), ensemble.replicates.end(),
-                                       [](const Evaluation& e) { return e.status == results::RunStatus::completed; });
-  ensemble.statistics = statistics_of(ensemble.replicates);
-  if (ensemble.status == results::RunStatus::stopped) return;
-  ensemble.status = completed > 0 ? results::RunStatus::completed : results::RunStatus::failed;
-  ensemble.reason = fmt::format("{} of {} replicates completed", completed, ensemble.wanted);
-  if (completed == 0 && !ensemble.replicates.empty()) ensemble.reason += ": " + ensemble.replicates.front().reason;
-}
+/// Replicates of one design as a campaign.
+class EnsembleRun final : public Campaign {
+ public:
+  EnsembleRun(const DesignFile& design, const EnsembleOptions& options) : design_(design), options_(options) {
+    for (int replicate = 0; replicate < options.replicates; ++replicate) {
+      const Request request = make_request(design, replicate);
+      asked_.push_back(
+          {request.key(), request, fmt::format("replicate {}", replicate), replicate_run_file({}, replicate)});
+    }
+    WorkOptions work;
+    work.folder = options.folder;
+    work.resume = options.resume;
+    work.force = options.force;
+    work.command_line = options.evaluate.command_line;
+    work.make_executor = [this] { return make_calling_executor([this](const Request& r) { return evaluate(r); }); };
+    open(std::move(work));
+  }
+
+  /// Tells of the replicates that the journal knows.
+  void tell_kept() const {
+    for (const Asked& one : asked_)
+      if (const Evaluation* known = answer_for(one.request, one.key, answers())) tell(*known, true);
+  }
+
+  Ensemble ensemble() const {
+    Ensemble found;
+    found.status = status();
+    found.reason = reason();
+    found.wanted = options_.replicates;
+    for (const Asked& one : asked_)
+      if (const Evaluation* known = answer_for(one.request, one.key, answers())) found.replicates.push_back(*known);
+    found.statistics = statistics_of(found.replicates);
+    return found;
+  }
+
+  std::string kind() const override { return "ensemble"; }
+  std::vector<std::string> own_files() const override {
+    return {"journal.jsonl", "ensemble.json", "ensemble.csv", "replicate-*"};
+  }
+  /// Names the design whatever the number of replicates.
+  json identity() const override { return {{"key", make_request(design_, 0).full_key()}}; }
+  void check_same(const json& head, const fs::path& journal) const override {
+    if (head.value("key", "") == identity().at("key")) return;
+    throw io::InputError(
+        {journal.string(), 0, ""},
+        "this ensemble was made of another design, of other settings or by a program that gives other results", "",
+        "resume with the same design file and flags, or start anew with --force or in another folder");
+  }
+  /// Before ensembles were campaigns, a replicate was written down without what had been asked.
+  void read_event(const json& event, Answers& answers) const override {
+    if (event.value("event", "") != "replicate") return;
+    Evaluation evaluation = results::evaluation_from_json(event.at("evaluation"));
+    answers.add(make_request(design_, evaluation.replicate).key(), std::move(evaluation));
+  }
+  std::vector<Asked> pending(const Answers& answers) override {
+    std::vector<Asked> asked;
+    for (const Asked& one : asked_)
+      if (!answer_for(one.request, one.key, answers)) asked.push_back(one);
+    remaining_ = static_cast<std::int64_t>(asked.size());
+    return asked;
+  }
+  std::string on_answer(const Asked&, const Evaluation& evaluation) override {
+    tell(evaluation, false);
+    return {};
+  }
+  std::int64_t remaining() const override { return remaining_; }
+  CampaignEnd finished() override {
+    const Ensemble found = ensemble();
+    const auto completed = std::count_if(found.replicates.begin(), found.replicates.end(),
+                                         [](const Evaluation& e) { return e.status == results::RunStatus::completed; });
+    CampaignEnd end{completed > 0 ? results::RunStatus::completed : results::RunStatus::failed,
+                    fmt::format("{} of {} replicates completed", completed, found.wanted)};
+    if (completed == 0 && !found.replicates.empty()) end.reason += ": " + found.replicates.front().reason;
+    return end;
+  }
+  CampaignEnd stopped(const Evaluation* interrupted) override {
+    if (!interrupted) return Campaign::stopped(nullptr);
+    return {results::RunStatus::stopped, fmt::format("replicate {}: {}", interrupted->replicate, interrupted->reason)};
+  }
+  void write_results() override {
+    const Ensemble found = ensemble();
+    io::write_file(options_.folder / "ensemble.json", to_json(found).dump(2) + "\n");
+    io::write_file(options_.folder / "ensemble.csv", ensemble_csv(found));
+  }
+
+ private:
+  Evaluation evaluate(const Request& request) const {
+    EvaluateOptions one = options_.evaluate;
+    one.run_file = request.run_file;
+    one.resume = options_.resume;
+    return evaluate_design(design_, one, request.replicate);
+  }
+
+  void tell(const Evaluation& evaluation, bool kept) const {
+    if (options_.finished)
+      options_.finished(evaluation, replicate_run_file(options_.folder, evaluation.replicate), kept);
+  }
+
+  const DesignFile& design_;
+  const EnsembleOptions& options_;
+  std::vector<Asked> asked_;  ///< by replicate
+  std::int64_t remaining_ = 0;
+};
 
 }  // namespace
 
@@ -114,38 +144,10 @@ Ensemble evaluate_ensemble(const DesignFile& design, const EnsembleOptions& opti
     throw io::InputError({"--packing", 0, ""},
                          "one packing file cannot serve several replicates: each has a packing of its own", "",
                          "leave --packing away, or take --replicates 1");
-  prepare_folder(options);
-  io::Journal journal(journal_path(options.folder));
-  Ensemble ensemble;
-  ensemble.wanted = options.replicates;
-  const std::vector<Evaluation> finished = read_finished(journal, ensemble_key(design), journal_path(options.folder));
-  for (int replicate = 0; replicate < options.replicates; ++replicate) {
-    const auto found =
-        std::find_if(finished.begin(), finished.end(), [&](const Evaluation& e) { return e.replicate == replicate; });
-    const fs::path run_file = replicate_run_file(options.folder, replicate);
-    const bool kept = found != finished.end();
-    Evaluation evaluation;
-    if (kept) {
-      evaluation = *found;
-    } else {
-      EvaluateOptions one = options.evaluate;
-      one.run_file = run_file;
-      one.resume = options.resume;
-      evaluation = evaluate_design(design, one, replicate);
-      if (evaluation.status == results::RunStatus::stopped) {
-        ensemble.status = results::RunStatus::stopped;
-        ensemble.reason = fmt::format("replicate {}: {}", replicate, evaluation.reason);
-        break;
-      }
-      journal.append(json({{"event", "replicate"}, {"evaluation", to_json(evaluation, true)}}).dump());
-    }
-    if (options.finished) options.finished(evaluation, run_file, kept);
-    ensemble.replicates.push_back(std::move(evaluation));
-  }
-  conclude(ensemble);
-  io::write_file(options.folder / "ensemble.json", to_json(ensemble).dump(2) + "\n");
-  io::write_file(options.folder / "ensemble.csv", ensemble_csv(ensemble));
-  return ensemble;
+  EnsembleRun run(design, options);
+  run.tell_kept();
+  run.run();
+  return run.ensemble();
 }
 
 json to_json(const Ensemble& ensemble) {

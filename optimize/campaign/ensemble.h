@@ -35,7 +35,8 @@ struct Ensemble {
   std::vector<results::Statistic> statistics;  ///< over the completed ones, NaN left out
 };
 
-/// Evaluates the replicates one after another. A killed ensemble goes on where it was with `resume`.
+/// Evaluates the replicates one after another in this process (their runs take all threads). A killed ensemble goes on
+/// where it was with `resume`.
 /// Throws io::InputError for bad input, a folder that holds something else, or another design's ensemble.
 Ensemble evaluate_ensemble(const DesignFile& design, const EnsembleOptions& options);
 

@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "io/journal.h"
+#include "io/progress.h"
 #include "io/text.h"
+#include "optimize/campaign/campaign.h"
 #include "results/history_file.h"
 #include "results/json.h"
 
@@ -21,7 +23,7 @@ using nlohmann::json;
 
 /// How often a stop is looked for while evaluations run.
 constexpr auto look_interval = std::chrono::milliseconds(200);
-constexpr const char* evaluation_event = "evaluation";
+constexpr const char* evaluation_name = "evaluation";
 constexpr const char* runs_folder = "runs";
 constexpr const char* histories_folder = "histories";
 
@@ -46,7 +48,7 @@ int workers_for(int asked, int of_file, std::int64_t together) {
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
-EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&)>& seen)
+EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&, Answers&)>& seen)
     : options_(std::move(options)) {
   journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
   answers_.set_histories([folder = options_.folder](const std::string& key) -> std::optional<results::History> {
@@ -58,12 +60,12 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
   DesignTexts designs;  // replicates share theirs
   for (const std::string& text : journal_->events()) {
     const json record = json::parse(text);
-    if (record.value("event", "") == evaluation_event) {
+    if (record.value("event", "") == evaluation_name) {
       take_evaluation(key_of(record, version == results_version, designs), record);
       continue;
     }
     version = record.value("results_version", version);
-    seen(record);
+    seen(record, answers_);
   }
 }
 
@@ -76,6 +78,7 @@ void EvaluationQueue::note(const json& event) {
 void EvaluationQueue::take_evaluation(const std::string& key, const json& record) {
   answers_.add(key, results::evaluation_from_json(record.at("evaluation")));
   simulated_seconds_ += record.value("seconds", 0.0);
+  ++timed_;
   retries_ += record.value("attempts", 1) - 1;
 }
 
@@ -95,23 +98,32 @@ std::filesystem::path EvaluationQueue::history_file(const std::string& key) {
   return std::filesystem::path(histories_folder) / (key + ".h5");
 }
 
-void EvaluationQueue::record(const Asked& asked, Answer answer) {
-  keep_history(answer.key, answer.evaluation);
+json evaluation_event(const Asked& asked, const Answer& answer) {
+  return {{"event", evaluation_name},
+          {"key", answer.key},
+          {"candidate", asked.label},
+          {"request", to_json(asked.request)},
+          {"evaluation", to_json(answer.evaluation, true)},
+          {"attempts", answer.attempts},
+          {"seconds", answer.seconds}};
+}
+
+void EvaluationQueue::record(Campaign& campaign, const Asked& asked, Answer answer) {
+  if (!asked.run_file) keep_history(answer.key, answer.evaluation);  // A run file that stays holds it.
   answer.evaluation.curve = results::coarse_curve(answer.evaluation.curve);
-  const json event = {{"event", evaluation_event},
-                      {"key", answer.key},
-                      {"candidate", asked.label},
-                      {"request", to_json(asked.request)},
-                      {"evaluation", to_json(answer.evaluation, true)},
-                      {"attempts", answer.attempts},
-                      {"seconds", answer.seconds}};
-  journal_->append(event.dump());
-  take_evaluation(answer.key, event);  // The same way as on resume, so that both see the same numbers.
+  const json event = campaign.event_of(asked, answer, answers_);
+  if (!event.is_null()) note(event);
+  // The same way as on resume, so that both see the same numbers.
+  if (event.is_object() && event.value("event", "") == evaluation_name) return take_evaluation(answer.key, event);
+  simulated_seconds_ += answer.seconds;
+  ++timed_;
+  retries_ += answer.attempts - 1;
+  answers_.add(answer.key, std::move(answer.evaluation));
 }
 
 std::string EvaluationQueue::time_left(std::int64_t remaining) const {
-  if (answers_.empty() || remaining <= 0) return {};
-  const double mean = simulated_seconds_ / static_cast<double>(answers_.size());
+  if (timed_ == 0 || remaining <= 0) return {};
+  const double mean = simulated_seconds_ / timed_;
   const double parallel = std::clamp(static_cast<double>(in_flight_.size()), 1.0, static_cast<double>(workers_));
   return fmt::format("; at most {} left", io::duration(mean * static_cast<double>(remaining) / parallel));
 }
@@ -121,10 +133,14 @@ std::filesystem::path EvaluationQueue::run_file(const Request& request) {
 }
 
 void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
-  std::filesystem::create_directories(options_.folder / runs_folder);
   Request request = asked.request;
-  request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
-  request.frames = options_.keep_run_files;
+  if (!asked.run_file) {
+    std::filesystem::create_directories(options_.folder / runs_folder);
+    request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
+    request.frames = options_.keep_run_files;
+  } else if (!asked.run_file->empty()) {
+    request.run_file = options_.folder / *asked.run_file;
+  }
   executor.submit(asked.key, request);
 }
 
@@ -135,10 +151,12 @@ void EvaluationQueue::drop_run_file(const Request& request) const {
   std::filesystem::remove_all(path.replace_extension(".part"), ignored);
 }
 
-bool EvaluationQueue::run(const Next& next, const Answered& answered) {
+bool EvaluationQueue::run(Campaign& campaign) {
+  using Clock = std::chrono::steady_clock;
   std::unique_ptr<Executor> executor;
-  std::vector<Asked> wanted = next();
+  std::vector<Asked> wanted = campaign.pending(answers_);
   bool stopped = options_.cancellation.requested();
+  Clock::time_point written = Clock::now();
   while (!wanted.empty() && !stopped) {
     if (!executor) executor = options_.make_executor();
     workers_ = executor->workers();
@@ -147,19 +165,24 @@ bool EvaluationQueue::run(const Next& next, const Answered& answered) {
     std::optional<Answer> answer = executor->next(look_interval);
     stopped = options_.cancellation.requested();
     if (!answer || answer->evaluation.status == results::RunStatus::stopped) {
-      stopped = stopped || answer;
+      if (answer) interrupted_ = std::move(answer->evaluation);
+      stopped = stopped || interrupted_;
       continue;
     }
     if (stopped && answer->evaluation.status == results::RunStatus::failed)
       continue;  // It may have died of the same signal.
     const Asked asked = in_flight_.at(answer->key);
-    record(asked, std::move(*answer));
+    record(campaign, asked, std::move(*answer));
     const Evaluation* evaluation = answer_for(asked.request, asked.key, answers_);
     if (!evaluation) throw std::logic_error("an evaluation does not answer its request: " + asked.label);
-    if (!options_.keep_run_files) drop_run_file(asked.request);
-    wanted = next();
-    answered(asked, *evaluation);
+    if (!asked.run_file && !options_.keep_run_files) drop_run_file(asked.request);
+    wanted = campaign.pending(answers_);
+    const std::string text = campaign.on_answer(asked, *evaluation);
+    if (!text.empty()) io::log_info(text + time_left(campaign.remaining()));
     in_flight_.erase(asked.key);
+    if (wanted.empty() || Clock::now() - written < options_.results_interval) continue;
+    campaign.write_results();
+    written = Clock::now();
   }
   if (executor) executor->stop();
   std::error_code ignored;

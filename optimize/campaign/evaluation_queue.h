@@ -1,13 +1,15 @@
 // What is here: evaluations of a folder: those its journal knows, and a loop that has the missing ones evaluated and
-// writes each down before anything else happens. What is not: which are wanted (driver.h, sweep_run.h), how they are
-// evaluated (executor.h).
+// writes each down before anything else happens. What is not: which are wanted (campaign.h), how they are evaluated
+// (executor.h).
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,9 @@ struct Asked {
   std::string key;
   Request request;
   std::string label;  ///< what the journal and people call it
+  /// Run file, relative to the folder, that stays there; "": none. Not given: DIR/runs/KEY.h5 (WorkOptions says whether
+  /// it stays).
+  std::optional<std::filesystem::path> run_file = {};
 };
 
 /// How a folder's work is carried out.
@@ -42,15 +47,19 @@ struct WorkOptions {
   /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
   /// what runs only if their evaluation was given a token, too.
   io::Cancellation cancellation;
+  /// Results of unfinished work are written this often, so that a kill leaves something to look at.
+  std::chrono::seconds results_interval = std::chrono::seconds(60);
 };
+
+class Campaign;
 
 /// The journal of a folder as answers, and the loop that adds to it.
 class EvaluationQueue {
  public:
-  /// Opens (or begins) the journal of options.folder. Events that are no evaluations go to `seen` in their order, so
-  /// that what does not belong here can be refused before an evaluation is read. Throws io::InputError when the journal
-  /// is damaged or in use.
-  EvaluationQueue(WorkOptions options, const std::function<void(const nlohmann::json&)>& seen);
+  /// Opens (or begins) the journal of options.folder. Events that are no evaluations go to `seen` in their order, with
+  /// the answers so far, so that what does not belong here can be refused before an evaluation is read. Throws
+  /// io::InputError when the journal is damaged or in use.
+  EvaluationQueue(WorkOptions options, const std::function<void(const nlohmann::json&, Answers&)>& seen);
   ~EvaluationQueue();
 
   /// Appends an event that is no evaluation.
@@ -59,12 +68,13 @@ class EvaluationQueue {
   const Answers& answers() const { return answers_; }
   const WorkOptions& options() const { return options_; }
 
-  using Next = std::function<std::vector<Asked>()>;
-  using Answered = std::function<void(const Asked&, const Evaluation&)>;
-  /// Has everything evaluated that `next` (asked again after every answer) names, until it names nothing; questions
-  /// that are under way stay in its list until they are answered. `answered` is called after the answer is in the
-  /// journal. True: done; false: stopped, what is finished is kept.
-  bool run(const Next& next, const Answered& answered);
+  /// Has everything evaluated that `campaign` (asked again after every answer) names, until it names nothing; questions
+  /// that are under way stay in its list until they are answered. It hears of an answer after that is in the journal.
+  /// True: done; false: stopped, what is finished is kept.
+  bool run(Campaign& campaign);
+
+  /// The evaluation during which work was stopped, where it said so itself.
+  const std::optional<Evaluation>& interrupted() const { return interrupted_; }
 
   /// DIR/runs/KEY.h5, relative to the folder, by the request's full key.
   static std::filesystem::path run_file(const Request& request);
@@ -81,7 +91,7 @@ class EvaluationQueue {
 
  private:
   void take_evaluation(const std::string& key, const nlohmann::json& record);
-  void record(const Asked& asked, Answer answer);
+  void record(Campaign& campaign, const Asked& asked, Answer answer);
   void keep_history(const std::string& key, const Evaluation& evaluation) const;
   void submit(Executor& executor, const Asked& asked) const;
   void drop_run_file(const Request& request) const;
@@ -89,11 +99,16 @@ class EvaluationQueue {
   WorkOptions options_;
   std::unique_ptr<io::Journal> journal_;
   Answers answers_;
+  std::optional<Evaluation> interrupted_;
   std::map<std::string, Asked> in_flight_;
   double simulated_seconds_ = 0.0;
+  int timed_ = 0;  ///< evaluations that make these up
   int retries_ = 0;
   int workers_ = 1;
 };
+
+/// The event that an answer is in a journal.
+nlohmann::json evaluation_event(const Asked& asked, const Answer& answer);
 
 /// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
 /// be under way together.

@@ -1,5 +1,5 @@
 // What is here: what carries requests to evaluations: in this process, or in child processes whose crash costs one
-// evaluation. What is not: which requests (driver.h), the journal (study_run.h).
+// evaluation. What is not: which requests (campaign.h), the journal (evaluation_queue.h).
 #pragma once
 
 #include <chrono>
@@ -41,6 +41,10 @@ using Evaluate = std::function<Evaluation(const Request&)>;
 /// Threads of this process. A crash is the end of all of it; for tests, small jobs and callers with an evaluation of
 /// their own.
 std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers);
+
+/// One at a time, in next() and the calling thread. Exceptions of `evaluate` pass through: for work that is shown and
+/// stopped by its caller.
+std::unique_ptr<Executor> make_calling_executor(Evaluate evaluate);
 
 struct ChildOptions {
   std::vector<std::string> command;  ///< program and arguments of a worker: one Request a line on its input, one

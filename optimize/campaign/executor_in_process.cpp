@@ -1,4 +1,5 @@
-// What is here: evaluations on threads of this process. What is not: protection from crashes (executor_children.cpp).
+// What is here: evaluations in this process: on threads, or on the caller's. What is not: protection from crashes
+// (executor_children.cpp).
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -89,7 +90,32 @@ class InProcessExecutor final : public Executor {
   std::vector<std::thread> threads_;
 };
 
+class CallingExecutor final : public Executor {
+ public:
+  explicit CallingExecutor(Evaluate evaluate) : evaluate_(std::move(evaluate)) {}
+  int workers() const override { return 1; }
+  void submit(const std::string& key, const Request& request) override { queue_.emplace_back(key, request); }
+  std::optional<Answer> next(std::chrono::milliseconds) override {
+    if (queue_.empty()) return std::nullopt;
+    const auto [key, request] = std::move(queue_.front());
+    queue_.pop_front();
+    const auto start = std::chrono::steady_clock::now();
+    Answer answer{key, evaluate_(request), 1, 0.0};
+    answer.seconds = seconds_since(start);
+    return answer;
+  }
+  void stop() override { queue_.clear(); }
+
+ private:
+  Evaluate evaluate_;
+  std::deque<std::pair<std::string, Request>> queue_;
+};
+
 }  // namespace
+
+std::unique_ptr<Executor> make_calling_executor(Evaluate evaluate) {
+  return std::make_unique<CallingExecutor>(std::move(evaluate));
+}
 
 std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers) {
   return std::make_unique<InProcessExecutor>(std::move(evaluate), workers);

@@ -11,6 +11,7 @@
 #include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/campaign/evaluation_queue.h"
+#include "optimize/campaign/table_file.h"
 #include "results/measure_table.h"
 
 namespace perfora::optimize {
@@ -92,7 +93,6 @@ struct Reader {
   std::filesystem::path path;
   Sweep sweep;
   io::Schema schema;
-  std::vector<io::Entry> fixed;        ///< [set]
   std::vector<Axis> rows, grid, each;  ///< [rows] without its names
   io::ValueList names;                 ///< of [rows]
   CaseWarnings warnings;
@@ -104,61 +104,39 @@ struct Reader {
     sweep.file = file;
   }
 
-  static bool belongs_here(const std::string& key) {
-    static const std::set<std::string> tables{"sweep", "set", "rows", "grid", "each"};
-    return tables.contains(key.substr(0, key.find('.')));
+  static TableFileForm form() {
+    const std::vector<std::string> tables{"rows", "grid", "each"};
+    return {{"sweep"}, tables, [](io::Entry& entry, const std::string& source) {
+              const std::string table = entry.key.substr(0, entry.key.find('.'));
+              if (entry.key.find('.') != std::string::npos && table != "sweep")
+                throw io::InputError({source, entry.value.line, entry.key}, fmt::format("unknown table [{}]", table),
+                                     "a sweep has [sweep], [set], [rows], [grid] and [each]",
+                                     "keys of the design that are the same in every case go to [set]");
+            }};
   }
 
-  void take(io::Entry entry, const std::string& source) {
-    const std::string table = entry.key.substr(0, entry.key.find('.'));
-    if (entry.key.find('.') != std::string::npos && !belongs_here(entry.key))
-      throw io::InputError({source, entry.value.line, entry.key}, fmt::format("unknown table [{}]", table),
-                           "a sweep has [sweep], [set], [rows], [grid] and [each]",
-                           "keys of the design that are the same in every case go to [set]");
-    if (table != "set" && table != "rows" && table != "grid" && table != "each")
-      return io::apply_entries(schema, {entry}, source);
-    std::erase_if(entry.key, [](char c) { return c == '"' || c == '\''; });
-    const std::string key = io::after_section(entry.key);
-    if (table == "set") {
-      fixed.push_back({key, entry.value});
-      return;
-    }
-    if (!key.empty() && key[0] >= '0' && key[0] <= '9')
-      throw io::InputError({source, entry.value.line, entry.key}, fmt::format("[{}] is one table of lists", table), "",
-                           fmt::format("write [{}] once, and a list of values for each key", table));
+  void take(const TableEntry& entry) {
+    if (!entry.key.empty() && entry.key[0] >= '0' && entry.key[0] <= '9')
+      throw io::InputError(entry.origin(), fmt::format("[{}] is one table of lists", entry.table), "",
+                           fmt::format("write [{}] once, and a list of values for each key", entry.table));
     const auto* list = std::get_if<io::ValueList>(&entry.value.data);
     if (!list || list->empty())
-      throw io::InputError({source, entry.value.line, entry.key},
-                           list ? "the list is empty" : "a list of values is wanted here",
+      throw io::InputError(entry.origin(), list ? "the list is empty" : "a list of values is wanted here",
                            "at least one value, such as [1.5, 2, 3]", list ? "" : "write the values in brackets");
-    if (table == "rows" && key == "name") {
+    if (entry.table == "rows" && entry.key == "name") {
       names = *list;
       return;
     }
-    auto& axes = table == "rows" ? rows : table == "grid" ? grid : each;
-    std::erase_if(axes, [&](const Axis& axis) { return axis.key == key; });  // The command line has the last word.
-    axes.push_back({key, *list, entry.value.line});
+    auto& axes = entry.table == "rows" ? rows : entry.table == "grid" ? grid : each;
+    axes.push_back({entry.key, *list, entry.value.line});
   }
 
   void read(const std::vector<std::string>& overrides) {
-    for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
-    std::vector<std::string> of_design;
-    for (const std::string& text : overrides) {
-      if (!belongs_here(text))
-        of_design.push_back(text);
-      else if (text.starts_with("sweep."))
-        schema.set_override(text);
-      else
-        for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
-    }
-    if (sweep.keys.design.empty())
-      throw io::InputError({path.string(), 0, "sweep.design"}, "no design is named", "the path of a design file",
-                           "add design = \"quick.toml\" under [sweep]");
-    auto start = std::make_shared<DesignFile>(sweep.keys.design, of_design);
-    io::apply_entries(start->schema(), fixed, path.string());
-    for (const std::string& text : of_design) start->schema().set_override(text);
-    for (const std::string& text : of_design) refuse_varied(trimmed(text.substr(0, text.find('='))), "--set");
-    for (const io::Entry& entry : fixed) refuse_in(rows, grid, entry.key, "set." + entry.key, entry.value.line);
+    const TableFile file(path, form(), schema, overrides);
+    for (const TableEntry& entry : file.entries()) take(entry);
+    auto start = file.start(sweep.keys.design);
+    for (const std::string& text : file.of_design()) refuse_varied(trimmed(text.substr(0, text.find('='))), "--set");
+    for (const TableEntry& entry : file.fixed()) refuse_in(rows, grid, entry.key, "set." + entry.key, entry.value.line);
     if (sweep.keys.until > 0.0) refuse_varied("loading.until", "sweep.until");
     const Fidelity fidelity{"", changes_without_output(), sweep.keys.until};
     apply(fidelity, *start, {path.string(), 0, "sweep.until"});
@@ -306,6 +284,7 @@ struct Reader {
       for (const Axis& axis : rows) settings.push_back({axis.key, axis.values[row]});
       add_grid(std::move(settings), 0, names.empty() ? "" : io::readable(names[row]));
     }
+    for (const Axis& axis : each) sweep.each.emplace_back(axis.key, static_cast<int>(axis.values.size()));
     for (const Axis& axis : each)
       for (const io::Value& value : axis.values) add({{axis.key, value}}, axis.key, "");
     if (std::none_of(labels.begin(), labels.end(), [&](const auto& label) { return is_chosen(label, only); }))

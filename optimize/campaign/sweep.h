@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "optimize/evaluate/design.h"
@@ -42,8 +43,10 @@ struct Sweep {
   SweepKeys keys;
   std::vector<std::string> measures;  ///< of keys.measures
   std::vector<SweepCase> cases;
-  int left_out = 0;                  ///< cases of the file that were not chosen
-  std::string grid_key;              ///< of [grid], the one with several values that changes fastest; "" without [grid]
+  int left_out = 0;      ///< cases of the file that were not chosen
+  std::string grid_key;  ///< of [grid], the one with several values that changes fastest; "" without [grid]
+  /// Keys of [each] and how many values each has: the last cases, in this order.
+  std::vector<std::pair<std::string, int>> each;
   std::vector<std::string> columns;  ///< every key that some case sets, in the order of the file
   std::shared_ptr<const DesignFile> start;
   std::vector<std::string> warnings;

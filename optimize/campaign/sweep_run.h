@@ -7,37 +7,35 @@
 #include <string>
 #include <vector>
 
-#include "optimize/campaign/evaluation_queue.h"
+#include "optimize/campaign/campaign.h"
 #include "optimize/campaign/sweep.h"
 
 namespace perfora::optimize {
 
-class SweepRun {
+class SweepRun final : public Campaign {
  public:
   /// Opens the folder and its journal. Throws io::InputError when the folder holds a sweep and neither `resume` nor
   /// `force` is set. A journal's evaluations are found by their request, so a resumed sweep may have other cases, other
   /// replicates, even another design: what was run already is not run again, what is no longer requested is not shown.
   SweepRun(Sweep sweep, WorkOptions options);
-  ~SweepRun();
-
-  /// Runs replicate 0 of every case, then replicate 1, ..., to the end or to a stop.
-  void run();
 
   const Sweep& sweep() const { return sweep_; }
-  const WorkOptions& options() const { return queue_->options(); }
-  results::RunStatus status() const { return status_; }
-  std::string reason() const { return reason_; }
   /// The evaluation of one run; nullptr while it is not known.
   const Evaluation* known(const SweepCase& one, int replicate) const;
   /// The same of a run that reached its strain; nullptr otherwise.
   const Evaluation* completed(const SweepCase& one, int replicate) const;
-  double seconds() const { return seconds_; }  ///< wall time of this call of run()
-  double simulated_seconds() const { return queue_->simulated_seconds(); }
-  int retries() const { return queue_->retries(); }
+
+  std::string kind() const override { return "sweep"; }
+  std::vector<std::string> own_files() const override;
+  nlohmann::json identity() const override;
+  /// Replicate 0 of every case, then replicate 1, ...
+  std::vector<Asked> pending(const Answers& answers) override;
+  std::string on_answer(const Asked& asked, const Evaluation& evaluation) override;
+  std::int64_t remaining() const override { return remaining_; }
+  CampaignEnd finished() override;
+  void write_results() override;
 
  private:
-  std::vector<Asked> wanted() const;
-  void say(const Asked& asked, const Evaluation& evaluation);
   struct Run {
     Asked asked;
     std::string full_key;  ///< cases that come to the same design are one run
@@ -46,11 +44,8 @@ class SweepRun {
   const Run& run_of(const SweepCase& one, int replicate) const;
 
   Sweep sweep_;
-  std::unique_ptr<EvaluationQueue> queue_;
   std::vector<std::vector<Run>> runs_;  ///< by case and replicate; empty where a case cannot be run
-  results::RunStatus status_ = results::RunStatus::completed;
-  std::string reason_;
-  double seconds_ = 0.0;
+  std::int64_t remaining_ = 0;          ///< runs that are not known yet
 };
 
 }  // namespace perfora::optimize

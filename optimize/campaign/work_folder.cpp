@@ -1,4 +1,4 @@
-// What is here: a folder of long work made, locked, checked for resuming, or cleared. What is not: its journal.
+// What is here: the rules for folders of long work. What is not: the journal's events.
 #include "optimize/campaign/work_folder.h"
 
 #include <fmt/format.h>
@@ -11,34 +11,62 @@
 #include "io/error.h"
 
 namespace perfora::optimize {
+namespace {
 
-void prepare_work_folder(const std::filesystem::path& folder, std::span<const char* const> own_files,
-                         const std::string& what, bool force, bool resume) {
+namespace fs = std::filesystem;
+
+/// "a study", "an ensemble".
+std::string with_article(const std::string& what) {
+  const bool vowel = std::string("aeiou").find(what.front()) != std::string::npos;
+  return (vowel ? "an " : "a ") + what;
+}
+
+/// What `names` stand for in `folder`, as far as it is there.
+std::vector<fs::path> own_paths(const fs::path& folder, const std::vector<std::string>& names) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    if (!name.ends_with('*')) {
+      if (fs::exists(folder / name, ignored)) found.push_back(folder / name);
+      continue;
+    }
+    const std::string start = name.substr(0, name.size() - 1);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().filename().string().starts_with(start)) found.push_back(entry.path());
+  }
+  return found;
+}
+
+}  // namespace
+
+void prepare_work_folder(const fs::path& folder, const std::vector<std::string>& own_files, const std::string& what,
+                         bool force, bool resume) {
   const auto journal = folder / "journal.jsonl";
   std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
-    throw io::InputError({folder.string(), 0, ""}, fmt::format("this is a file, and a {} needs a folder", what), "",
-                         "name another one with -o");
+  const auto refuse = [](const fs::path& path, const std::string& problem, const std::string& remedy) {
+    throw io::InputError({path.string(), 0, ""}, problem, "", remedy);
+  };
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+    refuse(folder, fmt::format("this is a file, and {} needs a folder", with_article(what)),
+           "name another one with -o");
   const std::string there = work_in(folder);
   if (!there.empty() && there != what)
-    throw io::InputError({folder.string(), 0, ""}, fmt::format("this folder holds a {}, not a {}", there, what), "",
-                         "name another folder with -o");
-  const bool begun = std::filesystem::exists(journal);
-  for (const char* name : own_files)
-    if (force && !resume && (begun || !std::filesystem::is_directory(folder / name, ignored)))
-      std::filesystem::remove_all(folder / name);
-  if (!resume && std::filesystem::exists(journal))
-    throw io::InputError({folder.string(), 0, ""}, fmt::format("this folder holds a {} already", what), "",
-                         "continue it with --resume, start over with --force, or name another folder with -o");
-  if (!std::filesystem::exists(journal))
-    for (const char* name : own_files)
-      if (std::filesystem::exists(folder / name))
-        throw io::InputError({(folder / name).string(), 0, ""}, fmt::format("a {} would overwrite this file", what), "",
-                             "start over with --force, or name another folder with -o");
-  std::filesystem::create_directories(folder, ignored);
+    refuse(folder, fmt::format("this folder holds {}, not {}", with_article(there), with_article(what)),
+           "name another folder with -o");
+  const bool begun = fs::exists(journal);
+  if (force && !resume)
+    for (const fs::path& path : own_paths(folder, own_files))
+      if (begun || !fs::is_directory(path, ignored)) fs::remove_all(path);
+  if (!resume && fs::exists(journal))
+    refuse(folder, fmt::format("this folder holds {} already", with_article(what)),
+           "continue it with --resume, start over with --force, or name another folder with -o");
+  if (!fs::exists(journal))
+    for (const fs::path& path : own_paths(folder, own_files))
+      refuse(path, fmt::format("{} would overwrite this file", with_article(what)),
+             "start over with --force, or name another folder with -o");
+  fs::create_directories(folder, ignored);
   if (ignored)
-    throw io::InputError({folder.string(), 0, ""}, fmt::format("the folder cannot be made ({})", ignored.message()), "",
-                         "name another one with -o");
+    refuse(folder, fmt::format("the folder cannot be made ({})", ignored.message()), "name another one with -o");
 }
 
 std::string work_in(const std::filesystem::path& folder) {

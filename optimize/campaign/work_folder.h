@@ -2,16 +2,17 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
+#include <vector>
 
 namespace perfora::optimize {
 
-/// Makes `folder` ready for work that writes `own_files` into it (journal.jsonl among them): removes them with `force`,
-/// keeps them with `resume`, otherwise refuses a folder that holds such work or a file of such a name. `what` names the
-/// work as its journal's first event does ("study"). A folder with the journal of other work is refused in any case,
-/// and folders among `own_files` are removed only beside a journal. Throws io::InputError.
-void prepare_work_folder(const std::filesystem::path& folder, std::span<const char* const> own_files,
+/// Makes `folder` ready for work that writes `own_files` into it (journal.jsonl among them; a name that ends in *
+/// stands for all that begin so): removes them with `force`, keeps them with `resume`, otherwise refuses a folder that
+/// holds such work or a file of such a name. `what` names the work as its journal's first event does ("study"). A
+/// folder with the journal of other work is refused in any case, and folders among `own_files` are removed only beside
+/// a journal. Throws io::InputError.
+void prepare_work_folder(const std::filesystem::path& folder, const std::vector<std::string>& own_files,
                          const std::string& what, bool force, bool resume);
 
 /// What kind of work keeps its journal in `folder`: the name of its first event; empty without one, or where it cannot

@@ -30,6 +30,7 @@ void Answers::add(const std::string& key, Evaluation evaluation) {
 }
 
 bool is_answer(const Evaluation& evaluation, const Request& request) {
+  if (!request.material_test.empty()) return true;  // Its key says all of it.
   const results::Summary& summary = evaluation.summary;
   const solver::SolverOptions& options = request.design->solver;
   const double row = options.output.history_interval;

@@ -44,7 +44,7 @@ class Answers {
 
 /// Whether an evaluation of the request's key is what the request asks for: its run ended with the same row, and its
 /// plateau was measured over the design's window. A failed one is, unless it failed beyond the strain that is asked
-/// for.
+/// for. A material test is one in any case.
 bool is_answer(const Evaluation& evaluation, const Request& request);
 
 /// The evaluation that answers `request`, whose key is `key`: a stored one, or one measured anew from it; nullptr where

@@ -109,6 +109,20 @@ std::vector<results::Statistic> statistics_of(const std::vector<MaterialTestRun>
   return statistics;
 }
 
+/// One test of a packed sample.
+MaterialTestResult run_one(const DesignFile& sample, const PackedDesign& packed, MaterialTestKind kind, int replicate,
+                           const io::Cancellation& cancellation, std::function<void(double)> progress) {
+  solver::MaterialTestRequest request;
+  request.sample = &packed.clipped;
+  request.options = sample.design().solver;
+  request.kind = kind;
+  request.noise_seed = sample.design().seeds.effective(replicate).noise;
+  request.mean_diameter = mean_diameter_of(sample, packed.periodic);
+  request.cancellation = cancellation;
+  request.progress = std::move(progress);
+  return solver::run_material_test(request);
+}
+
 /// stopped before failed before completed, with the first reason.
 void sum_up(MaterialTests& tests) {
   for (const results::RunStatus status : {results::RunStatus::stopped, results::RunStatus::failed})
@@ -199,15 +213,8 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
   };
   side_by_side(tests.runs.size(), options.threads, [&](std::size_t k) {
     MaterialTestRun& run = tests.runs[k];
-    solver::MaterialTestRequest request;
-    request.sample = &packed[static_cast<std::size_t>(run.replicate)].clipped;
-    request.options = sample.design().solver;
-    request.kind = run.result.kind;
-    request.noise_seed = sample.design().seeds.effective(run.replicate).noise;
-    request.mean_diameter = tests.mean_diameter;
-    request.cancellation = options.cancellation;
-    request.progress = [&, k](double fraction) { say(k, fraction); };
-    run.result = solver::run_material_test(request);
+    run.result = run_one(sample, packed[static_cast<std::size_t>(run.replicate)], run.result.kind, run.replicate,
+                         options.cancellation, [&, k](double fraction) { say(k, fraction); });
     say(k, 1.0);
     const std::lock_guard lock(mutex);
     if (options.finished) options.finished(run.result, run.replicate);
@@ -218,6 +225,39 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
   tests.performance.threads = options.threads;
   tests.performance.peak_memory = io::peak_memory_bytes();
   return tests;
+}
+
+Evaluation evaluate_material_test(const DesignFile& design, MaterialTestKind kind, int replicate, int threads,
+                                  const io::Cancellation& cancellation) {
+  const auto start = std::chrono::steady_clock::now();
+  const DesignFile sample = material_sample(design);
+  const Seeds::Effective seeds = sample.design().seeds.effective(replicate);
+  EvaluateOptions packing;
+  packing.threads = threads;
+  const PackedDesign packed = pack_design(sample, packing, replicate);
+  if (!packed.periodic.quality.reached)
+    return failed_evaluation("packing not reached: " + packed.periodic.quality.reason, replicate, seeds);
+  const MaterialTestResult result = run_one(sample, packed, kind, replicate, cancellation, {});
+  Evaluation evaluation = failed_evaluation(result.reason, replicate, seeds);  // nothing else is reached
+  evaluation.status = evaluation.summary.status = result.status;
+  evaluation.pack = packed.summary;
+  evaluation.summary.first_peak_stress = result.strength;
+  evaluation.summary.first_peak_strain = result.peak_strain;
+  evaluation.summary.steps = result.steps;
+  evaluation.summary.broken_bonds = result.broken_bonds;
+  evaluation.summary.broken_in_tension = result.broken_in_tension;
+  evaluation.performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  evaluation.performance.threads = 1;
+  evaluation.performance.peak_memory = io::peak_memory_bytes();
+  return evaluation;
+}
+
+MaterialTestKind material_test_called(const std::string& name) {
+  for (const auto kind : {MaterialTestKind::tension, MaterialTestKind::compression, MaterialTestKind::shear,
+                          MaterialTestKind::oedometric})
+    if (name == solver::material_test_name(kind)) return kind;
+  throw io::InputError({"material_test", 0, ""}, "there is no test \"" + name + "\"",
+                       "tension, compression, shear, oedometric");
 }
 
 }  // namespace perfora::optimize

@@ -10,6 +10,7 @@
 
 #include "io/cancellation.h"
 #include "optimize/evaluate/design.h"
+#include "optimize/evaluate/evaluation.h"
 #include "results/statistic.h"
 #include "solver/material_test.h"
 
@@ -58,5 +59,14 @@ std::vector<solver::MaterialTestKind> wanted_tests(const DesignFile& design);
 /// Runs the `kinds` on every replicate; a request to stop ends all of them. Throws io::InputError for bad input.
 MaterialTests test_material(const DesignFile& design, const std::vector<solver::MaterialTestKind>& kinds,
                             const MaterialTestsOptions& options);
+
+/// One test of one sample as an evaluation, for those who ask for many of them: its first peak is the strength and the
+/// strain it was reached at; counts of steps and broken bonds; all else of a compression is not reached. The same bits
+/// as in test_material(). Throws io::InputError for bad input.
+Evaluation evaluate_material_test(const DesignFile& design, solver::MaterialTestKind kind, int replicate, int threads,
+                                  const io::Cancellation& cancellation = {});
+
+/// The kind that files and JSON name so. Throws io::InputError for another name.
+solver::MaterialTestKind material_test_called(const std::string& name);
 
 }  // namespace perfora::optimize

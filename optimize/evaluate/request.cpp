@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/text.h"
+#include "optimize/evaluate/material_tests.h"
 
 namespace perfora::optimize {
 
@@ -44,6 +45,7 @@ bool changes_path(const std::string& key) {
 }
 
 std::string Request::key() const {
+  if (!material_test.empty()) return full_key();
   const DesignFile file(*design);
   json path = json::object();
   for (const io::Key& one : file.schema().keys())
@@ -52,7 +54,9 @@ std::string Request::key() const {
 }
 
 std::string Request::full_key() const {
-  return hash({{"design", DesignFile(*design).schema().changed_toml()}, {"replicate", replicate}, {"until", until}});
+  json all = {{"design", DesignFile(*design).schema().changed_toml()}, {"replicate", replicate}, {"until", until}};
+  if (!material_test.empty()) all["material_test"] = material_test;
+  return hash(std::move(all));
 }
 
 json to_json(const Request& request) {
@@ -60,6 +64,7 @@ json to_json(const Request& request) {
                  {"replicate", request.replicate},
                  {"until", request.until}};
   if (!request.fidelity.empty()) record["fidelity"] = request.fidelity;
+  if (!request.material_test.empty()) record["material_test"] = request.material_test;
   if (request.run_file.empty()) return record;
   record["run_file"] = request.run_file.string();
   record["frames"] = request.frames;
@@ -75,6 +80,7 @@ Request request_from_json(const json& record, DesignTexts* known) {
   request.fidelity = record.value("fidelity", "");
   request.run_file = record.value("run_file", "");
   request.frames = record.value("frames", false);
+  request.material_test = record.value("material_test", "");
   return request;
 }
 
@@ -89,6 +95,9 @@ Request make_request(const DesignFile& design, int replicate, double until) {
 Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation) {
   try {
     DesignFile design = DesignFile::of(*request.design, "request");
+    if (!request.material_test.empty())
+      return evaluate_material_test(design, material_test_called(request.material_test), request.replicate, threads,
+                                    cancellation);
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
     static_cast<void>(design.validate());
     EvaluateOptions options;

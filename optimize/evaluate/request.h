@@ -25,6 +25,8 @@ struct Request {
   /// empty: nowhere. No part of the key.
   std::filesystem::path run_file = {};
   bool frames = false;  ///< few frames in the run file; otherwise none. No part of the key
+  /// "tension", ...: this test of the design's solid material instead of a compression (material_tests.h); "": none.
+  std::string material_test = {};
 
   /// Engineering strain that the run is to reach.
   double strain() const { return until > 0.0 ? until : design->solver.loading.until; }
@@ -43,8 +45,8 @@ bool changes_path(const std::string& key);
 /// The request for one replicate of a design; `until` = 0: as far as the design says.
 Request make_request(const DesignFile& design, int replicate, double until = 0.0);
 
-/// {"design": TOML text, "replicate", "until"}, with "fidelity" where it has a name, "run_file" and "frames" where a
-/// run file is wanted.
+/// {"design": TOML text, "replicate", "until"}, with "fidelity" and "material_test" where they have a name, "run_file"
+/// and "frames" where a run file is wanted.
 nlohmann::json to_json(const Request& request);
 /// Designs by their text.
 using DesignTexts = std::map<std::string, std::shared_ptr<const Design>>;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/error.h"
+#include "optimize/campaign/table_file.h"
 #include "optimize/evaluate/evaluation.h"
 
 namespace perfora::optimize {
@@ -56,18 +57,9 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
   calibration.file = path;
   io::Schema schema;
   describe(schema, calibration.keys);
-  io::apply_toml(schema, path);
-  std::vector<std::string> of_design;
-  for (const std::string& text : overrides) {
-    if (text.starts_with("calibrate."))
-      schema.set_override(text);
-    else
-      of_design.push_back(text);
-  }
+  const TableFile file(path, {{"calibrate"}, {}}, schema, overrides);
   const CalibrationKeys& keys = calibration.keys;
-  if (keys.design.empty())
-    throw io::InputError({path.string(), 0, "calibrate.design"}, "no design is named", "the path of a design file",
-                         "add design = \"solid.toml\" to [calibrate]");
+  const auto start = file.start(keys.design);
   if (!(keys.tensile_strength > 0.0))
     throw io::InputError({path.string(), 0, "calibrate.tensile_strength"}, "no tensile strength is given",
                          "a positive stress", "add tensile_strength = \"3 MPa\" or the like to [calibrate]");
@@ -75,7 +67,7 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
     throw io::InputError(schema.origin("calibrate.compressive_strength"),
                          "the compressive strength is not above the tensile one", "more than tensile_strength",
                          "check both; bonds that break more easily in compression are not in this model");
-  calibration.start = std::make_shared<DesignFile>(keys.design, of_design);
+  calibration.start = start;
   calibration.warnings = material_sample(*calibration.start).validate();
   return calibration;
 }

@@ -1,9 +1,9 @@
 // What is here: calibration: stiffnesses and critical displacements of the bonds for a wanted E, nu, tensile and
-// compressive strength; its file, its search, its result. What is not: the tests (material_tests.h).
+// compressive strength; its file and its result. What is not: the search (calibration_search.h), the tests
+// (material_tests.h).
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -77,25 +77,6 @@ struct CalibrationResult {
   MaterialTests confirmation;  ///< all tests with the parameters found
   double seconds = 0.0;
 };
-
-struct CalibrationOptions {
-  std::filesystem::path folder;
-  int threads = 1;
-  bool resume = false, force = false;
-  std::string command_line;
-  io::Cancellation cancellation;                             ///< requested: tests stop, finished ones are kept
-  std::function<void(double, const std::string&)> progress;  ///< may be empty
-};
-
-/// k_t/k_n from nu and k_n from E by the elastic answer of the samples (a root and a division); delta_t0/delta_n0 from
-/// the ratio of strengths by a bracketed secant in logarithms at thresholds that give nearly the wanted tensile
-/// strength, delta_n0 by proportion; then all tests once more with what was found. Every point of the search is a line
-/// of DIR/journal.jsonl and never tested twice. Writes journal.jsonl, material.toml (the design with the parameters
-/// found), result.json, reachable.csv. Throws io::InputError.
-CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options);
-
-/// Largest number of points a calibration may test.
-int most_points(const Calibration& calibration);
 
 /// schema "perfora.calibrate/1".
 nlohmann::json to_json(const CalibrationResult& result);

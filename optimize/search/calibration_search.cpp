@@ -1,32 +1,19 @@
-// What is here: the search of a calibration around its journal. What is not: keys and record (calibration.cpp).
+// What is here: the search for thresholds by replay over known points. What is not: keys and record (calibration.cpp).
+#include "optimize/search/calibration_search.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
 
 #include "io/journal.h"
-#include "io/progress.h"
 #include "io/text.h"
-#include "optimize/campaign/work_folder.h"
-#include "optimize/evaluate/elastic_fit.h"
-#include "optimize/evaluate/material_tests_file.h"
-#include "optimize/search/calibration.h"
-#include "optimize/search/study.h"
-#include "solver/elastic/elastic.h"
 #include "solver/mass.h"
 
 namespace perfora::optimize {
 namespace {
 
-using nlohmann::json;
-using solver::MaterialTestKind;
-
-constexpr const char* own_files[] = {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
-                                     "reachable.png", "confirmation.h5", "confirmation.png"};
 /// delta_t0/delta_n0 searched (docs/user/theory.md, "Calibration"); the ratio of strengths still grows at the upper
 /// end.
 constexpr double least_shear_ratio = 1.0, largest_shear_ratio = 32.0;
@@ -35,110 +22,30 @@ constexpr double rupture_delays[] = {1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 2.0, 3.0};
 /// The chart.
 constexpr double chart_delays[] = {1.0, 1.1, 1.5, 2.0};
 constexpr double chart_shear_ratios[] = {1.0, 2.0, 3.5, 6.0, 12.0, 32.0};
-constexpr int chart_points = static_cast<int>(std::size(chart_delays) * std::size(chart_shear_ratios));
-
-/// A number of a CSV, empty where it was not reached.
-std::string or_empty(double value) {
-  return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string();
-}
 
 class Search {
  public:
-  Search(const Calibration& calibration, const CalibrationOptions& options)
-      : calibration_(calibration),
-        options_(options),
-        keys_(calibration.keys),
-        started_(std::chrono::steady_clock::now()) {
-    prepare_work_folder(options.folder, own_files, "calibration", options.force, options.resume);
-    journal_ = std::make_unique<io::Journal>(options.folder / "journal.jsonl");
-    read_journal();
+  Search(const Calibration& calibration, const CalibrationBasis& basis, const KnownStrengths& known)
+      : calibration_(calibration), keys_(calibration.keys), basis_(basis), known_(known) {
+    search_.found.normal_stiffness = basis.normal_stiffness;
+    search_.found.tangential_stiffness = basis.tangential_stiffness;
   }
 
-  CalibrationResult run() {
-    pack_samples();
-    fit_elasticity();
-    if (!std::isfinite(young_)) return failed("the elastic answer of a sample did not converge");
-    bool whole = scale_thresholds() && fit_strengths();
-    if (whole && keys_.chart) whole = make_chart();
-    write_design();
-    if (whole) whole = confirm();
-    if (!whole) {
-      result_.status = results::RunStatus::stopped;
-      result_.reason = "signal";
-    } else if (result_.status == results::RunStatus::completed) {
-      result_.reason = result_.not_met.empty() ? "all wanted numbers were met" : result_.not_met.front();
-    }
-    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-    return std::move(result_);
+  StrengthSearch run() {
+    if (scale_thresholds() && fit_strengths() && keys_.chart) make_chart();
+    return std::move(search_);
   }
 
  private:
-  void read_journal() {
-    const json head = {{"event", "calibration"},
-                       {"results_version", results_version},
-                       {"design", calibration_.start->schema().to_toml()},
-                       {"replicates", keys_.replicates}};
-    if (journal_->events().empty()) {
-      journal_->append(head.dump());
-      return;
-    }
-    const json first = json::parse(journal_->events().front());
-    for (const char* key : {"event", "results_version", "design", "replicates"})
-      if (first.value(key, json()) != head.at(key))
-        throw io::InputError({(options_.folder / "journal.jsonl").string(), 0, key},
-                             "the calibration of this folder began with another design or other samples", "",
-                             "resume with the files it was started with, or name another folder with -o");
-    for (const std::string& text : journal_->events()) {
-      const json event = json::parse(text);
-      if (event.value("event", "") == "point") known_[event.at("key").get<std::string>()] = event;
-    }
-  }
-
-  void pack_samples() {
-    EvaluateOptions packing;
-    packing.threads = options_.threads;
-    packing.progress = options_.progress;
-    samples_.emplace(material_sample(*calibration_.start), keys_.replicates, packing);
-  }
-
-  void fit_elasticity() {
-    const solver::MaterialOptions& material = calibration_.start->design().solver.material;
-    double ratio = material.tangential_stiffness / material.normal_stiffness;
-    double poisson = keys_.poisson_ratio, young = keys_.young_modulus;
-    const bool plane_strain = keys_.reading == ElasticReading::plane_strain;
-    if (plane_strain) poisson /= 1.0 - keys_.poisson_ratio;
-    if (keys_.poisson_ratio > 0.0) {
-      ratio = samples_->stiffness_ratio_for(poisson);
-      const auto as_meant = [&](double nu) { return plane_strain ? solver::plane_strain_poisson_ratio(nu) : nu; };
-      if (ratio == ElasticFit::least_ratio || ratio == ElasticFit::largest_ratio)
-        result_.not_met.push_back(fmt::format(
-            "poisson_ratio: {:.4g} is out of reach of these bonds, which give {:.4f} to {:.4f} for k_t/k_n from {:.3g} "
-            "to {:.3g}; the nearest end was taken, which changes the strengths, too",
-            keys_.poisson_ratio, as_meant(samples_->at(ElasticFit::largest_ratio).poisson),
-            as_meant(samples_->at(ElasticFit::least_ratio).poisson), ElasticFit::largest_ratio,
-            ElasticFit::least_ratio));
-    }
-    const UnitElasticity unit = samples_->at(ratio);
-    const double in_space = solver::plane_strain_poisson_ratio(unit.poisson);
-    if (plane_strain) young /= 1.0 - in_space * in_space;
-    result_.found.normal_stiffness = keys_.young_modulus > 0.0 ? young / unit.young : material.normal_stiffness;
-    result_.found.tangential_stiffness = ratio * result_.found.normal_stiffness;
-    young_ = unit.young * result_.found.normal_stiffness;
-    io::log_info(
-        fmt::format("elastic: k_t/k_n = {:.5g}, k_n = {:.5g} N/m give E = {:.5g} Pa, nu = {:.4f} (two-dimensional)",
-                    ratio, result_.found.normal_stiffness, young_, unit.poisson));
-  }
-
   /// delta_n0 that all points are tested with: E delta_n0/<l> = wanted tensile strength (an aligned bond of mean
   /// length), as stated for the reference diameter.
   double reference_stretch() const {
-    const double factor =
-        solver::threshold_factor(calibration_.start->design().solver.material, samples_->mean_diameter());
-    return io::rounded(keys_.tensile_strength / young_ * samples_->mean_bond_length() / factor);
+    const double factor = solver::threshold_factor(calibration_.start->design().solver.material, basis_.mean_diameter);
+    return io::rounded(keys_.tensile_strength / basis_.young_modulus * basis_.mean_bond_length / factor);
   }
 
   /// One point at reference_stretch(); its tensile strength says how far off that was. The ratio of strengths hangs a
-  /// little on the strains reached, so the search is done at the right ones. False: stopped.
+  /// little on the strains reached, so the search is done at the right ones. False: it is not known yet.
   bool scale_thresholds() {
     const solver::MaterialOptions& material = calibration_.start->design().solver.material;
     critical_normal_ = reference_stretch();
@@ -148,73 +55,34 @@ class Search {
     if (point == nullptr) return false;
     if (point->tensile.mean > 0.0)
       critical_normal_ = io::rounded(critical_normal_ * keys_.tensile_strength / point->tensile.mean);
-    result_.points.clear();  // of other thresholds
+    search_.points.clear();  // of other thresholds
     return true;
   }
 
-  CalibrationResult failed(const std::string& reason) {
-    result_.status = results::RunStatus::failed;
-    result_.reason = reason;
-    return std::move(result_);
-  }
-
-  DesignFile design_with(const BondParameters& p) const {
-    DesignFile design = calibration_.start->clone();
-    solver::MaterialOptions& material = design.design().solver.material;
-    material.normal_stiffness = p.normal_stiffness;
-    material.tangential_stiffness = p.tangential_stiffness;
-    material.critical_normal_stretch = p.critical_normal_stretch;
-    material.critical_shear_displacement = p.critical_shear_displacement;
-    material.rupture_delay = p.rupture_delay;
-    return design;
-  }
-
-  /// Tests a point, or takes it from the journal. Empty when the work was stopped.
+  /// A point, where it is known; otherwise it is wanted, and nothing comes back.
   const StrengthPoint* test(double shear_ratio, double rupture_delay, bool of_chart) {
     shear_ratio = io::rounded(shear_ratio);
-    for (StrengthPoint& known : result_.points)
-      if (known.shear_ratio == shear_ratio && known.rupture_delay == rupture_delay) return &known;
-    BondParameters p = result_.found;
+    for (StrengthPoint& point : search_.points)
+      if (point.shear_ratio == shear_ratio && point.rupture_delay == rupture_delay) return &point;
+    BondParameters p = search_.found;
     p.critical_normal_stretch = critical_normal_;
     p.critical_shear_displacement = shear_ratio * critical_normal_;
     p.rupture_delay = rupture_delay;
-    const DesignFile design = design_with(p);
+    const DesignFile design = design_with(calibration_, p);
     const std::string key = fmt::format("{:08x}", io::crc32(design.schema().to_toml()));
-    auto found = known_.find(key);
-    if (found == known_.end()) {
-      const MaterialTests tests = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression});
-      if (tests.status == results::RunStatus::stopped || options_.cancellation.requested()) return nullptr;
-      json event = {{"event", "point"}, {"key", key}, {"shear_ratio", shear_ratio}, {"rupture_delay", rupture_delay}};
-      for (const MaterialTestRun& run : tests.runs)
-        event[solver::material_test_name(run.result.kind)].push_back(number(run.result.strength));
-      journal_->append(event.dump());
-      found = known_.emplace(key, event).first;
+    const std::optional<SampleStrengths> known = known_(key);
+    if (!known) {
+      search_.wanted.push_back(
+          {key, std::make_shared<const Design>(material_sample(design).design()), shear_ratio, rupture_delay});
+      return nullptr;
     }
-    const auto strengths = [&](const char* name) {
-      std::vector<double> values;
-      for (const json& value : found->second.at(name))
-        if (value.is_number()) values.push_back(value.get<double>());
-      return results::statistic_of(name, values);
-    };
-    StrengthPoint point{shear_ratio, rupture_delay, strengths("tension"), strengths("compression"), of_chart};
-    io::log_info(fmt::format(
-        "zeta_max {:.3g}, delta_t0/delta_n0 {:.4g}: tension {:.4g} kPa, compression {:.4g} kPa, "
-        "ratio {:.3f}",
-        rupture_delay, shear_ratio, 1e-3 * point.tensile.mean, 1e-3 * point.compressive.mean, point.ratio()));
-    result_.points.push_back(std::move(point));
-    return &result_.points.back();
+    search_.points.push_back({shear_ratio, rupture_delay, results::statistic_of("tension", known->tension),
+                              results::statistic_of("compression", known->compression), of_chart});
+    return &search_.points.back();
   }
 
-  MaterialTests run_tests(const DesignFile& design, const std::vector<MaterialTestKind>& kinds) const {
-    MaterialTestsOptions tests;
-    tests.threads = options_.threads;
-    tests.replicates = keys_.replicates;
-    tests.cancellation = options_.cancellation;
-    tests.progress = options_.progress;
-    return test_material(design, kinds, tests);
-  }
-
-  /// The point whose ratio of strengths is the wanted one; the nearest where there is none. False: stopped.
+  /// The point whose ratio of strengths is the wanted one; the nearest where there is none. False: a point is not known
+  /// yet.
   bool fit_strengths() {
     const solver::MaterialOptions& material = calibration_.start->design().solver.material;
     std::vector<double> delays = {material.rupture_delay};
@@ -230,8 +98,8 @@ class Search {
           test(material.critical_shear_displacement / material.critical_normal_stretch, material.rupture_delay, false);
       if (only == nullptr) return false;
       if (only->tensile.count > 0) return take(*only);
-      result_.status = results::RunStatus::failed;
-      result_.reason = "no test gave a tensile strength";
+      search_.status = results::RunStatus::failed;
+      search_.reason = "no test gave a tensile strength";
       return true;
     }
     const double wanted = keys_.compressive_strength / keys_.tensile_strength;
@@ -239,7 +107,7 @@ class Search {
     double smallest = std::numeric_limits<double>::infinity(), least = smallest, largest = 0.0;
     for (const double delay : delays) {
       if (!search_ratio(wanted, delay)) return false;
-      for (const StrengthPoint& point : result_.points) {
+      for (const StrengthPoint& point : search_.points) {
         if (point.of_chart || !std::isfinite(point.ratio())) continue;
         least = std::min(least, point.ratio());
         largest = std::max(largest, point.ratio());
@@ -252,12 +120,12 @@ class Search {
       if (smallest < keys_.tolerance) break;
     }
     if (smallest == std::numeric_limits<double>::infinity()) {
-      result_.status = results::RunStatus::failed;
-      result_.reason = "no test gave both strengths";
+      search_.status = results::RunStatus::failed;
+      search_.reason = "no test gave both strengths";
       return true;
     }
     if (wanted < least || wanted > largest)
-      result_.not_met.push_back(fmt::format(
+      search_.not_met.push_back(fmt::format(
           "compressive_strength: a ratio of strengths of {:.3g} is out of reach; {:.3g} to {:.3g} were found for "
           "delta_t0/delta_n0 from {:.3g} to {:.3g} at zeta_max {}{}; another horizon, yield_exponent or noise shifts "
           "this range",
@@ -267,8 +135,8 @@ class Search {
     return take(nearest);
   }
 
-  /// Secant with a bracket (Illinois) on log ratio over log delta_t0/delta_n0. Leaves its points in result_. False:
-  /// stopped.
+  /// Secant with a bracket (Illinois) on log ratio over log delta_t0/delta_n0. Leaves its points in search_. False: a
+  /// point is not known yet.
   bool search_ratio(double wanted, double delay) {
     double x[2] = {std::log(least_shear_ratio), std::log(largest_shear_ratio)}, f[2];
     for (int k = 0; k < 2; ++k) {
@@ -303,92 +171,53 @@ class Search {
 
   /// delta_n0 by proportion: strengths grow with the thresholds as long as strains are small.
   bool take(const StrengthPoint& point) {
-    result_.found.rupture_delay = point.rupture_delay;
-    result_.found.critical_normal_stretch = io::rounded(critical_normal_ * keys_.tensile_strength / point.tensile.mean);
-    result_.found.critical_shear_displacement = io::rounded(point.shear_ratio * result_.found.critical_normal_stretch);
+    search_.found.rupture_delay = point.rupture_delay;
+    search_.found.critical_normal_stretch = io::rounded(critical_normal_ * keys_.tensile_strength / point.tensile.mean);
+    search_.found.critical_shear_displacement = io::rounded(point.shear_ratio * search_.found.critical_normal_stretch);
     return true;
   }
 
-  bool make_chart() {
+  /// Its points do not hang on each other.
+  void make_chart() {
     for (const double delay : chart_delays)
-      for (const double ratio : chart_shear_ratios)
-        if (test(ratio, delay, true) == nullptr) return false;
-    return true;
-  }
-
-  void write_design() const {
-    if (!(result_.found.critical_normal_stretch > 0.0)) return;
-    io::write_file(options_.folder / "material.toml", design_with(result_.found).schema().to_toml());
-    std::string csv = "zeta_max,shear_ratio,tensile_strength,compressive_strength,strength_ratio\n";
-    for (const StrengthPoint& p : result_.points)
-      csv += fmt::format("{:.6g},{:.6g},{},{},{}\n", p.rupture_delay, p.shear_ratio, or_empty(p.tensile.mean),
-                         or_empty(p.compressive.mean), or_empty(p.ratio()));
-    io::write_file(options_.folder / "reachable.csv", csv);
-  }
-
-  /// All tests with the parameters found, held against what was wanted. False: stopped.
-  bool confirm() {
-    if (result_.status == results::RunStatus::failed) return true;
-    const DesignFile design = design_with(result_.found);
-    result_.confirmation = run_tests(design, {MaterialTestKind::tension, MaterialTestKind::compression,
-                                              MaterialTestKind::shear, MaterialTestKind::oedometric});
-    if (result_.confirmation.status == results::RunStatus::stopped || options_.cancellation.requested()) return false;
-    write_material_tests(options_.folder / "confirmation.h5", design, result_.confirmation, options_.command_line);
-    const std::string suffix = keys_.reading == ElasticReading::plane_strain ? "_plane_strain" : "";
-    compare("young_modulus", "young_modulus" + suffix, keys_.young_modulus);
-    compare("poisson_ratio", "poisson_ratio" + suffix, keys_.poisson_ratio);
-    compare("tensile_strength", "tensile_strength", keys_.tensile_strength);
-    compare("compressive_strength", "compressive_strength", keys_.compressive_strength);
-    if (result_.confirmation.status == results::RunStatus::failed) {
-      result_.status = results::RunStatus::failed;
-      result_.reason = "a test of the material found gave no strength: " + result_.confirmation.reason;
-    }
-    return true;
-  }
-
-  void compare(const std::string& name, const std::string& statistic, double wanted) {
-    if (!(wanted > 0.0)) return;
-    CalibrationTarget target{name, wanted, std::numeric_limits<double>::quiet_NaN(), false};
-    for (const results::Statistic& s : result_.confirmation.statistics)
-      if (s.name == statistic) target.reached = s.mean;
-    target.met = std::fabs(target.reached / wanted - 1.0) <= keys_.tolerance;
-    const bool told = std::any_of(result_.not_met.begin(), result_.not_met.end(),
-                                  [&](const std::string& one) { return one.starts_with(name); });
-    const auto text = [&](double value) {
-      return io::quantity(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
-    };
-    if (!target.met && !told)
-      result_.not_met.push_back(
-          fmt::format("{}: {} was reached where {} was wanted ({:+.1f} %); "
-                      "more calibrate.replicates, a larger test.size or a wider tolerance may help",
-                      name, text(target.reached), text(wanted), 100.0 * (target.reached / wanted - 1.0)));
-    result_.targets.push_back(std::move(target));
+      for (const double ratio : chart_shear_ratios) test(ratio, delay, true);
   }
 
   const Calibration& calibration_;
-  const CalibrationOptions& options_;
   const CalibrationKeys& keys_;
-  std::chrono::steady_clock::time_point started_;
-  std::unique_ptr<io::Journal> journal_;
-  std::map<std::string, json> known_;
-  std::optional<ElasticFit> samples_;
-  double young_ = 0.0, critical_normal_ = 0.0;
-  CalibrationResult result_;
+  const CalibrationBasis& basis_;
+  const KnownStrengths& known_;
+  double critical_normal_ = 0.0;
+  StrengthSearch search_;
 };
 
 }  // namespace
 
-int most_points(const Calibration& calibration) {
-  const CalibrationKeys& keys = calibration.keys;
-  if (!(keys.compressive_strength > 0.0)) return keys.chart ? 1 + chart_points : 1;
-  const int delays = keys.vary_rupture_delay ? 1 + static_cast<int>(std::size(rupture_delays)) : 1;
-  return keys.maxeval * delays + (keys.chart ? chart_points : 0);
+StrengthSearch search_strengths(const Calibration& calibration, const CalibrationBasis& basis,
+                                const KnownStrengths& known) {
+  return Search(calibration, basis, known).run();
 }
 
-CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options) {
-  CalibrationResult result = Search(calibration, options).run();
-  io::write_file(options.folder / "result.json", to_json(result).dump(2) + "\n");
-  return result;
+DesignFile design_with(const Calibration& calibration, const BondParameters& parameters) {
+  DesignFile design = calibration.start->clone();
+  solver::MaterialOptions& material = design.design().solver.material;
+  material.normal_stiffness = parameters.normal_stiffness;
+  material.tangential_stiffness = parameters.tangential_stiffness;
+  material.critical_normal_stretch = parameters.critical_normal_stretch;
+  material.critical_shear_displacement = parameters.critical_shear_displacement;
+  material.rupture_delay = parameters.rupture_delay;
+  return design;
+}
+
+int most_points(const Calibration& calibration) {
+  const CalibrationKeys& keys = calibration.keys;
+  if (!(keys.compressive_strength > 0.0)) return 1 + chart_points(calibration);
+  const int delays = keys.vary_rupture_delay ? 1 + static_cast<int>(std::size(rupture_delays)) : 1;
+  return keys.maxeval * delays + chart_points(calibration);
+}
+
+int chart_points(const Calibration& calibration) {
+  return calibration.keys.chart ? static_cast<int>(std::size(chart_delays) * std::size(chart_shear_ratios)) : 0;
 }
 
 }  // namespace perfora::optimize

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "io/text.h"
+#include "optimize/campaign/table_file.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_arms.h"
 
@@ -49,23 +51,13 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
 }
 
-std::string section_of(std::string_view key) {
-  return std::string(key.substr(0, key.find('.')));
-}
-
-bool belongs_to_study(const std::string& override_text) {
-  static const std::set<std::string> sections{"study", "target", "constraints", "variables", "arms", "set"};
-  return sections.contains(section_of(override_text));
-}
-
 /// Everything that is needed while a study file is read.
 struct Reader {
   std::filesystem::path path;
   const Searchers& searchers;
   Study study;
   io::Schema schema;
-  std::vector<io::Entry> variables, arms;
-  std::vector<io::Entry> fixed;  ///< [set]: keys of the design that differ from its file
+  std::optional<TableFile> tables;
 
   Reader(const std::filesystem::path& file, const Searchers& known) : path(file), searchers(known) {
     describe(schema, study.keys);
@@ -74,63 +66,28 @@ struct Reader {
     study.file = file;
   }
 
-  io::Origin origin(const std::string& key) const {
-    const io::Origin known = schema.find(key) ? schema.origin(key) : io::Origin{path.string(), 0, key};
-    return known.file == "default" || known.file.empty() ? io::Origin{path.string(), 0, key} : known;
-  }
+  io::Origin origin(const std::string& key) const { return tables->origin(key); }
 
   /// `allocation` may be a list of whole numbers; the table of keys knows one type a key.
-  static void flatten_allocation(io::Entry& entry, const io::Origin& origin) {
+  static void flatten_allocation(io::Entry& entry, const std::string& source) {
     const auto* list = std::get_if<io::ValueList>(&entry.value.data);
     if (entry.key != "study.allocation" || !list) return;
     std::string text;
     for (const io::Value& item : *list) {
       const auto* number = std::get_if<std::int64_t>(&item.data);
       if (!number || *number < 0)
-        throw io::InputError(origin, "the list holds something that is not a number of candidates",
+        throw io::InputError({source, entry.value.line, entry.key},
+                             "the list holds something that is not a number of candidates",
                              "\"equal\", \"proportional\" or whole numbers >= 0, one an arm", "");
       text += fmt::format("{}{}", text.empty() ? "" : ", ", *number);
     }
     entry.value.data = text;
   }
 
-  static void replace(std::vector<io::Entry>& list, io::Entry entry) {
-    std::erase_if(list, [&](const io::Entry& other) { return other.key == entry.key; });
-    list.push_back(std::move(entry));
-  }
-
-  void take(io::Entry entry, const std::string& source) {
-    const std::string section = section_of(entry.key);
-    if (section == "variables" || section == "arms" || section == "set") {
-      std::erase_if(entry.key,
-                    [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
-      return replace(section == "arms" ? arms : section == "set" ? fixed : variables, std::move(entry));
-    }
-    flatten_allocation(entry, {source, entry.value.line, entry.key});
-    io::apply_entries(schema, {entry}, source);
-  }
-
   void read(const std::vector<std::string>& overrides) {
-    for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
-    std::vector<std::string> of_design;
-    for (const std::string& text : overrides) {
-      if (!belongs_to_study(text))
-        of_design.push_back(text);
-      else if (section_of(text) == "variables" || section_of(text) == "arms" || section_of(text) == "set")
-        for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
-      else
-        schema.set_override(text);
-    }
-    if (study.keys.design.empty())
-      throw io::InputError({path.string(), 0, "study.design"}, "no design is named to start from",
-                           "the path of a design file", "add design = \"quick.toml\" under [study]");
-    auto start = std::make_shared<DesignFile>(study.keys.design, of_design);
-    for (io::Entry& entry : fixed) {
-      entry.key = io::after_section(entry.key);
-      io::apply_entries(start->schema(), {entry}, path.string());
-    }
-    for (const std::string& text : of_design)
-      start->schema().set_override(text);  // The command line has the last word.
+    const TableFileForm form{{"study", "target", "constraints"}, {"variables", "arms"}, flatten_allocation};
+    tables.emplace(path, form, schema, overrides);
+    auto start = tables->start(study.keys.design);
     check_numbers(*start);
     study.warnings = start->validate();
     study.start = start;
@@ -304,9 +261,8 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   Reader reader(path, searchers);
   reader.read(overrides);
   ArmEntries entries;
-  for (const io::Entry& entry : reader.variables)
-    entries.variables.push_back({io::after_section(entry.key), entry.value});
-  for (const io::Entry& entry : reader.arms) entries.arms.push_back({io::after_section(entry.key), entry.value});
+  for (const TableEntry& entry : reader.tables->entries())
+    (entry.table == "arms" ? entries.arms : entries.variables).push_back({entry.key, entry.value});
   make_variables(reader.study, entries);
   reader.check_dimension();
   make_arms(reader.study, entries, reader.origin("study.allocation"));

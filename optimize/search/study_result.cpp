@@ -8,6 +8,7 @@
 #include "io/journal.h"
 #include "io/text.h"
 #include "optimize/search/searcher.h"
+#include "optimize/search/study_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -203,6 +204,7 @@ void write_results(StudyRun& run) {
   const std::string best = best_toml(run);
   if (!best.empty()) io::write_file(folder / "best.toml", best);
   io::write_file(folder / "evaluations.csv", evaluations_csv(run));
+  io::write_file(folder / "study.json", to_json(study_record(run)).dump() + "\n");
   io::write_file(folder / "result.json", to_json(run).dump(2) + "\n");
 }
 

@@ -20,7 +20,8 @@ std::string best_toml(StudyRun& run);
 /// made of; empty where not known.
 std::string evaluations_csv(StudyRun& run);
 
-/// Writes result.json, best.toml (where there is one) and evaluations.csv into the study's folder, each whole.
+/// Writes result.json, best.toml (where there is one), evaluations.csv and study.json (what its picture shows) into the
+/// study's folder, each whole.
 void write_results(StudyRun& run);
 
 }  // namespace perfora::optimize

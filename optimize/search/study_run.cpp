@@ -1,25 +1,19 @@
-// What is here: the loop of a study around its journal. What is not: result files (study_result.cpp).
+// What is here: what a study asks and says, and which journals it goes on with. What is not: result files
+// (study_result.cpp).
 #include "optimize/search/study_run.h"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <set>
 
-#include "io/progress.h"
+#include "io/error.h"
 #include "io/text.h"
-#include "optimize/campaign/work_folder.h"
+#include "optimize/search/study_result.h"
 
 namespace perfora::optimize {
 namespace {
 
 using nlohmann::json;
-
-/// Everything a study writes into its folder; --force removes these and nothing else.
-constexpr const char* own_files[] = {"journal.jsonl", "result.json",  "best.toml", "best.h5",         "best.csv",
-                                     "best.xdmf",     "best.xdmf.h5", "best.part", "evaluations.csv", "best.png",
-                                     "study.png",     "runs",         "histories"};
 
 /// Keys that may differ on resume: they only say how far to go, and the points on the way there stay the same.
 bool may_change(const std::string& key) {
@@ -35,16 +29,30 @@ std::string arm_names(const Study& study) {
   return names;
 }
 
-json header(const Study& study, const std::string& command_line) {
-  auto resolved = study.resolved();
-  resolved["arms"] = arm_names(study);
-  return {{"event", "study"},     {"schema", "perfora.study/1"},  {"results_version", results_version},
-          {"resolved", resolved}, {"command_line", command_line}, {"file", study.file.filename().string()}};
+}  // namespace
+
+int useful_workers(const Study& study, int asked) {
+  const std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * study.keys.replicates;
+  return workers_for(asked, study.keys.workers, parallel);
 }
 
-/// Throws io::InputError when the study of a journal's header differs from this one in more than how far to go. A key
-/// that the program had not learned when the header was written is the same at its default.
-void check_same_study(const json& there, const json& here, const Study& study, const std::filesystem::path& journal) {
+StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)), driver_(study_) {
+  open(std::move(options));
+}
+
+std::vector<std::string> StudyRun::own_files() const {
+  return {"journal.jsonl", "result.json", "best.toml",       "best.h5",    "best.csv",  "best.xdmf", "best.xdmf.h5",
+          "best.part",     "best.png",    "evaluations.csv", "study.json", "study.png", "runs",      "histories"};
+}
+
+json StudyRun::identity() const {
+  auto resolved = study_.resolved();
+  resolved["arms"] = arm_names(study_);
+  return {{"schema", "perfora.study/1"}, {"resolved", resolved}, {"file", study_.file.filename().string()}};
+}
+
+/// A key that the program had not learned when the head was written is the same at its default.
+void StudyRun::check_same(const json& head, const std::filesystem::path& journal) const {
   auto refuse = [&](const std::string& key, const std::string& old_value, const std::string& new_value) {
     throw io::InputError({journal.string(), 0, key},
                          fmt::format("the study of this folder has {}, this one has {}", old_value, new_value),
@@ -57,41 +65,19 @@ void check_same_study(const json& there, const json& here, const Study& study, c
            : found->is_string()  ? found->get<std::string>()
                                  : found->dump();
   };
-  if (there.at("results_version") != here.at("results_version"))
-    refuse("results_version", text_of(there, "results_version"), text_of(here, "results_version"));
+  if (head.at("results_version") != results_version)
+    refuse("results_version", text_of(head, "results_version"), std::to_string(results_version));
+  const json there = head.at("resolved"), here = identity().at("resolved");
   std::set<std::string> keys;
-  for (const auto* object : {&there.at("resolved"), &here.at("resolved")})
+  for (const json* object : {&there, &here})
     for (const auto& entry : object->items()) keys.insert(entry.key());
-  const std::set<std::string> at_default = study.at_default();
+  const std::set<std::string> at_default = study_.at_default();
   for (const std::string& key : keys) {
-    if (!there.at("resolved").contains(key) && at_default.contains(key)) continue;
-    const std::string old_value = text_of(there.at("resolved"), key), new_value = text_of(here.at("resolved"), key);
+    if (!there.contains(key) && at_default.contains(key)) continue;
+    const std::string old_value = text_of(there, key), new_value = text_of(here, key);
     if (old_value != new_value && !may_change(key)) refuse(key, old_value, new_value);
   }
 }
-
-}  // namespace
-
-int useful_workers(const Study& study, int asked) {
-  const std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * study.keys.replicates;
-  return workers_for(asked, study.keys.workers, parallel);
-}
-
-StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)), driver_(study_) {
-  prepare_work_folder(options.folder, own_files, "study", options.force, options.resume);
-  const bool resume = options.resume;
-  const json now = header(study_, options.command_line);
-  bool known = false;
-  const auto path = options.folder / "journal.jsonl";
-  queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json& event) {
-    if (event.value("event", "") != "study") return;
-    check_same_study(event, now, study_, path);
-    known = true;
-  });
-  if (!known || resume) queue_->note(now);
-}
-
-StudyRun::~StudyRun() = default;
 
 std::vector<const Evaluation*> StudyRun::known(const Candidate& candidate, int first, int count) {
   std::vector<const Evaluation*> found;
@@ -109,7 +95,11 @@ std::int64_t StudyRun::most_evaluations() const {
   return candidates * keys.replicates + 2 * std::int64_t{keys.final_replicates};
 }
 
-void StudyRun::say(const Asked& asked, const Evaluation& evaluation) {
+std::int64_t StudyRun::remaining() const {
+  return most_evaluations() - static_cast<std::int64_t>(answers().size());
+}
+
+std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation) {
   const Candidate& candidate = *candidates_.at(asked.key);
   const auto all = known(candidate, 0, study_.keys.replicates);
   std::string what = usable(evaluation)
@@ -122,13 +112,12 @@ void StudyRun::say(const Asked& asked, const Evaluation& evaluation) {
   }
   const std::string best = plan_.best ? fmt::format("; best so far {:.4g}", plan_.best_score.value) : "";
   const auto done = static_cast<std::int64_t>(answers().size());
-  io::log_info(fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}{}", done, most_evaluations(),
-                           asked.label, final_stage ? "final " : "", asked.request.replicate + 1, what, best,
-                           queue_->time_left(most_evaluations() - done)));
+  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}", done, most_evaluations(), asked.label,
+                     final_stage ? "final " : "", asked.request.replicate + 1, what, best);
 }
 
-std::vector<Asked> StudyRun::wanted() {
-  plan_ = driver_.plan(answers());
+std::vector<Asked> StudyRun::pending(const Answers& answers) {
+  plan_ = driver_.plan(answers);
   std::vector<Asked> asked;
   for (const Wanted& one : plan_.wanted) {
     candidates_[one.key] = one.candidate;
@@ -137,16 +126,12 @@ std::vector<Asked> StudyRun::wanted() {
   return asked;
 }
 
-void StudyRun::run() {
-  const auto begin = std::chrono::steady_clock::now();
-  const bool done = queue_->run([this] { return wanted(); },
-                                [this](const Asked& asked, const Evaluation& evaluation) { say(asked, evaluation); });
-  status_ = !done        ? results::RunStatus::stopped
-            : plan_.best ? results::RunStatus::completed
-                         : results::RunStatus::failed;
-  reason_ = done ? plan_.reason : "stopped by a signal; go on with --resume";
-  queue_->note({{"event", done ? "finished" : "stop"}, {"reason", reason_}});
-  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+CampaignEnd StudyRun::finished() {
+  return {plan_.best ? results::RunStatus::completed : results::RunStatus::failed, plan_.reason};
+}
+
+void StudyRun::write_results() {
+  optimize::write_results(*this);
 }
 
 }  // namespace perfora::optimize

@@ -208,7 +208,7 @@ TEST(PlotPacking, WritesAPicture) {
 }
 
 TEST(Study, IncumbentIsTheRunningMinimumOfFeasibleScores) {
-  std::vector<StudyEvaluation> evaluations(6);
+  std::vector<results::StudyPoint> evaluations(6);
   const double scores[] = {3.0, 1.0, NAN, 2.0, 0.5, 0.7};
   for (std::size_t k = 0; k < 6; ++k) evaluations[k].score = scores[k];
   evaluations[1].feasible = false;
@@ -218,10 +218,10 @@ TEST(Study, IncumbentIsTheRunningMinimumOfFeasibleScores) {
 TEST(Study, AnEmptyAndAFullPictureAreDrawn) {
   const auto folder = fresh_folder("study");
   plot_study({}, folder / "empty.png");
-  StudyPicture picture;
+  results::StudyRecord picture;
   picture.title = "Study";
   for (int k = 1; k <= 30; ++k)
-    picture.evaluations.push_back({k, "arm " + std::to_string(k % 12), {1.0}, k % 7 ? 10.0 / k : NAN, k % 5 != 0});
+    picture.points.push_back({k, "arm " + std::to_string(k % 12), {1.0}, k % 7 ? 10.0 / k : NAN, k % 5 != 0});
   picture.best_number = 29;
   picture.best.push_back({small_run().run.history.strain_yy, small_run().run.history.stress_yy});
   picture.start.push_back({{}, {}});
@@ -248,7 +248,7 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   SweepPicture picture;
   picture.title = "Sweep";
   picture.measures = {"plateau_stress"};
-  const StudyCurve curve{small_run().run.history.strain_yy, small_run().run.history.stress_yy};
+  const results::Curve curve{small_run().run.history.strain_yy, small_run().run.history.stress_yy};
   SweepGroup group;
   group.label = "material.horizon";
   group.places = {"2", "3"};

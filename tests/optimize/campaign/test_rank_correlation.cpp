@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "optimize/campaign/sweep_record.h"
+#include "optimize/campaign/sweep_comparison.h"
 #include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
@@ -111,8 +111,8 @@ class SweepRecords : public ::testing::Test {
 };
 
 TEST_F(SweepRecords, MeetByLabel) {
-  const SweepRecord dear = read_sweep_record(sweep("dear", {"a", "b", "c", "d", "x"}, {10, 20, 30, 40, 50}));
-  const SweepRecord cheap = read_sweep_record(sweep("cheap", {"d", "y", "c", "b", "a"}, {80, 1, 40, 60, 20}));
+  const SweepRecord dear = read_completed_sweep(sweep("dear", {"a", "b", "c", "d", "x"}, {10, 20, 30, 40, 50}));
+  const SweepRecord cheap = read_completed_sweep(sweep("cheap", {"d", "y", "c", "b", "a"}, {80, 1, 40, 60, 20}));
   EXPECT_EQ(dear.name, "dear");
   const auto compared = compare_sweeps(dear, cheap, {"plateau_stress", "undulation"}, {});
   ASSERT_EQ(compared.size(), 2u);
@@ -127,7 +127,11 @@ TEST_F(SweepRecords, MeetByLabel) {
 }
 
 TEST_F(SweepRecords, SayWhyNumbersMayDiffer) {
-  SweepRecord a{"a", {{"x", 1, {{"final_strain", {0.6, 0.0}}}}}, {0.2, 0.4}}, b = a;
+  SweepRecord a;
+  a.name = "a";
+  a.cases.emplace_back().results["final_strain"] = {0.6, 0.0};
+  a.plateau_window = {0.2, 0.4};
+  SweepRecord b = a;
   b.name = "b";
   EXPECT_TRUE(differences(a, b).empty());
   b.plateau_window = {0.1, 0.3};
@@ -139,8 +143,8 @@ TEST_F(SweepRecords, SayWhyNumbersMayDiffer) {
 }
 
 TEST_F(SweepRecords, OnlySomeCases) {
-  const SweepRecord dear = read_sweep_record(sweep("dear", {"a 1", "b 1", "c 1", "d 2"}, {1, 2, 3, 4}));
-  const SweepRecord cheap = read_sweep_record(sweep("cheap", {"a 1", "b 1", "c 1", "d 2"}, {3, 2, 1, 9}));
+  const SweepRecord dear = read_completed_sweep(sweep("dear", {"a 1", "b 1", "c 1", "d 2"}, {1, 2, 3, 4}));
+  const SweepRecord cheap = read_completed_sweep(sweep("cheap", {"a 1", "b 1", "c 1", "d 2"}, {3, 2, 1, 9}));
   EXPECT_EQ(compare_sweeps(dear, cheap, {"plateau_stress"}, {" 1"})[0].correlation.coefficient, -1.0);
   const std::string refused = input_error([&] { compare_sweeps(dear, cheap, {"plateau_stress"}, {" 2"}); });
   EXPECT_THAT(refused, HasSubstr("needs three"));
@@ -149,12 +153,12 @@ TEST_F(SweepRecords, OnlySomeCases) {
 
 TEST_F(SweepRecords, OtherFilesAreRefused) {
   const auto unfinished = sweep("unfinished", {"a"}, {std::nan("")});
-  EXPECT_THAT(input_error([&] { read_sweep_record(unfinished); }), HasSubstr("no case of this sweep has completed"));
-  EXPECT_THAT(input_error([&] { read_sweep_record(folder / "none"); }), HasSubstr("no such file"));
+  EXPECT_THAT(input_error([&] { read_completed_sweep(unfinished); }), HasSubstr("no case of this sweep has completed"));
+  EXPECT_THAT(input_error([&] { read_completed_sweep(folder / "none"); }), HasSubstr("no such file"));
   std::filesystem::create_directory(folder / "running");
-  EXPECT_THAT(input_error([&] { read_sweep_record(folder / "running"); }), HasSubstr("holds no result of a sweep"));
+  EXPECT_THAT(input_error([&] { read_completed_sweep(folder / "running"); }), HasSubstr("holds no result of a sweep"));
   folder.file("r.json", R"({"schema": "perfora.study/1"})");
-  EXPECT_THAT(input_error([&] { read_sweep_record(folder / "r.json"); }), HasSubstr("not the result of a sweep"));
+  EXPECT_THAT(input_error([&] { read_completed_sweep(folder / "r.json"); }), HasSubstr("not the result of a sweep"));
 }
 
 }  // namespace

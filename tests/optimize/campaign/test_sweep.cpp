@@ -169,7 +169,6 @@ TEST_F(SweepTest, ACaseThatCannotBeLaidStaysInTheTable) {
   run.run();
   EXPECT_EQ(run.status(), results::RunStatus::completed);
   EXPECT_EQ(asked, 3);
-  write_results(run);
   EXPECT_TRUE(to_json(run).at("cases").at(1).at("problem").is_string());
   EXPECT_NE(refused(sweep_text("[each]\nlayout.diameter = [\"30 mm\"]\n")).find("no case can be run"),
             std::string::npos);
@@ -212,7 +211,6 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
                 options("out", true));
   more.run();
   EXPECT_EQ(asked, 4 + 2 + 3);  // the third replicate of two designs, all of the new one
-  write_results(more);
   const auto runs =
       io::read_csv(folder / "out/runs.csv", {"case", "replicate", "material.horizon", "plateau_stress"}, 100);
   ASSERT_EQ(runs.rows(), 12U);
@@ -292,7 +290,6 @@ TEST_F(SweepTest, AStopIsResumedWithTheSameResult) {
     SweepRun run(sweep(text), stopping);
     run.run();
     EXPECT_EQ(run.status(), results::RunStatus::stopped);
-    write_results(run);
   }
   std::ofstream(folder / "stopped/journal.jsonl", std::ios::app)
       << "0123abcd {\"event\":\"evaluation\",\"key\"";  // torn

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <deque>
 
 #include "io/journal.h"
 #include "io/progress.h"
@@ -20,25 +19,6 @@ const char* const keys =
     "maxeval = 8\nreplicates = 2\nfinal_replicates = 3\nrefine = \"LN_SBPLX\"\nrefine_maxeval = 3\nalgorithm = "
     "\"GN_DIRECT_L\"";
 const char* const arms = "rows = [1, 2]";
-
-/// Evaluates in next(), so that everything before has reached the journal.
-class SynchronousExecutor final : public Executor {
- public:
-  explicit SynchronousExecutor(Evaluate evaluate) : evaluate_(std::move(evaluate)) {}
-  int workers() const override { return 1; }
-  void submit(const std::string& key, const Request& request) override { queue_.emplace_back(key, request); }
-  std::optional<Answer> next(std::chrono::milliseconds) override {
-    if (queue_.empty()) return std::nullopt;
-    const auto [key, request] = queue_.front();
-    queue_.pop_front();
-    return Answer{key, evaluate_(request), 1, 0.0};
-  }
-  void stop() override { queue_.clear(); }
-
- private:
-  Evaluate evaluate_;
-  std::deque<std::pair<std::string, Request>> queue_;
-};
 
 class StudyRunTest : public testing::Test {
  protected:
@@ -58,7 +38,6 @@ class StudyRunTest : public testing::Test {
   /// The record of a study run to its end without what is allowed to differ.
   static nlohmann::json finish(StudyRun& run) {
     run.run();
-    write_results(run);
     nlohmann::json record = to_json(run);
     record.erase("performance");
     return record;
@@ -101,7 +80,7 @@ TEST_F(StudyRunTest, KilledAtEveryEvaluationItEndsWithTheSameRecord) {
       int count = 0;
       WorkOptions dying = options(name);
       dying.make_executor = [&] {
-        return std::make_unique<SynchronousExecutor>([&](const Request& request) {
+        return make_calling_executor([&](const Request& request) {
           if (++count == kill_at) ::kill(::getpid(), SIGKILL);
           return fake_with_failures(request);
         });
@@ -158,7 +137,6 @@ TEST_F(StudyRunTest, AStopIsNotedAndCanBeResumed) {
     run.run();
     EXPECT_EQ(run.status(), results::RunStatus::stopped);
     EXPECT_LT(run.answers().size(), expected.at("evaluations").get<std::size_t>());
-    write_results(run);
     EXPECT_EQ(to_json(run).at("status"), "stopped");
   }
   EXPECT_NE(io::read_file(folder / "stopped/journal.jsonl").find("\"event\":\"stop\""), std::string::npos);

@@ -1,38 +1,23 @@
-// What is here: finished sweeps read back from their result.json, and two of them compared case by case. What is not:
-// running and writing sweeps (sweep_run.h, sweep_result.h), pictures (report/).
+// What is here: two sweeps compared case by case. What is not: reading them (results/sweep_record.h), pictures
+// (report/).
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "optimize/campaign/rank_correlation.h"
+#include "results/sweep_record.h"
 
 namespace perfora::optimize {
 
-/// Mean of a result over the replicates of a case, SI; NaN where it is not known.
-struct CaseMean {
-  double mean = 0.0;
-  double half_interval = 0.0;  ///< of its 95 % confidence interval
-};
+using results::CaseMean;
+using results::SweepRecord;
 
-struct SweepRecord {
-  std::string name;  ///< of its folder
-  struct Case {
-    std::string label;
-    int completed = 0;                        ///< replicates
-    std::map<std::string, CaseMean> results;  ///< by the names of sweep_measures()
-  };
-  std::vector<Case> cases;  ///< those with a completed replicate
-  /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
-  /// where an older program left them out.
-  std::vector<double> plateau_window;
-};
-
-/// Reads a sweep's folder or result.json. Throws io::InputError for anything else and where no case has completed.
-SweepRecord read_sweep_record(const std::filesystem::path& path);
+/// Reads a sweep's folder or result.json, the cases alone that have a completed replicate. Throws io::InputError for
+/// anything else and where no case has completed.
+SweepRecord read_completed_sweep(const std::filesystem::path& path);
 
 /// One result of the cases that two sweeps share.
 struct ComparedMeasure {

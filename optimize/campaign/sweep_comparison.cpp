@@ -1,6 +1,5 @@
-// What is here: result.json of a sweep read back, and two sweeps compared over the cases they share. What is not: the
-// statistics of a case (sweep_result.h).
-#include "optimize/campaign/sweep_record.h"
+// What is here: sweeps compared case by case. What is not: the coefficient (rank_correlation.h).
+#include "optimize/campaign/sweep_comparison.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +9,6 @@
 #include <limits>
 
 #include "io/error.h"
-#include "io/journal.h"
 #include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/evaluate/evaluation.h"
@@ -23,11 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-double number_or_nan(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : missing;
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) return missing;
   std::sort(values.begin(), values.end());
@@ -35,43 +28,25 @@ double median(std::vector<double> values) {
   return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-const SweepRecord::Case* case_called(const SweepRecord& record, const std::string& label) {
-  for (const SweepRecord::Case& one : record.cases)
+const results::SweepCase* case_called(const SweepRecord& record, const std::string& label) {
+  for (const results::SweepCase& one : record.cases)
     if (one.label == label) return &one;
   return nullptr;
 }
 
-CaseMean result_of(const SweepRecord::Case& one, const std::string& measure) {
+CaseMean result_of(const results::SweepCase& one, const std::string& measure) {
   const auto found = one.results.find(measure);
   return found != one.results.end() ? found->second : CaseMean{missing, missing};
 }
 
 }  // namespace
 
-SweepRecord read_sweep_record(const fs::path& path) {
-  const fs::path file = fs::is_directory(path) ? path / "result.json" : path;
-  const char* remedy = "give the folder of a `perfora sweep`";
-  const auto refuse = [&](const std::string& problem) {
-    return io::InputError({file.string(), 0, ""}, problem, "", remedy);
-  };
-  if (!fs::exists(path)) throw refuse("there is no such file or folder");
-  if (!fs::exists(file))
-    throw refuse("this folder holds no result of a sweep (a sweep writes it when it ends or is stopped)");
-  const json object = json::parse(io::read_file(file), nullptr, false);
-  if (!object.is_object() || object.value("schema", "") != "perfora.sweep/1" || !object.contains("cases"))
-    throw refuse("this is not the result of a sweep");
-  SweepRecord record;
-  record.name = fs::absolute(file).parent_path().filename().string();
-  record.plateau_window = object.value("plateau_window", std::vector<double>());
-  for (const json& one : object["cases"]) {
-    if (one.value("completed", 0) < 1) continue;
-    SweepRecord::Case& added = record.cases.emplace_back();
-    added.label = one.value("label", "");
-    added.completed = one.value("completed", 0);
-    for (const auto& [name, statistic] : one["statistics"].items())
-      added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
-  }
-  if (record.cases.empty()) throw refuse("no case of this sweep has completed yet");
+SweepRecord read_completed_sweep(const fs::path& path) {
+  SweepRecord record = results::read_sweep_record(path);
+  std::erase_if(record.cases, [](const results::SweepCase& one) { return one.completed < 1; });
+  if (record.cases.empty())
+    throw io::InputError({(record.folder / "result.json").string(), 0, ""}, "no case of this sweep has completed yet",
+                         "", "give the folder of a `perfora sweep`");
   return record;
 }
 
@@ -86,7 +61,7 @@ std::vector<std::string> differences(const SweepRecord& reference, const SweepRe
                                 reference.name, window(other), other.name));
   const auto reached = [](const SweepRecord& record) {
     std::vector<double> strains;
-    for (const SweepRecord::Case& one : record.cases) strains.push_back(result_of(one, "final_strain").mean);
+    for (const results::SweepCase& one : record.cases) strains.push_back(result_of(one, "final_strain").mean);
     return median(std::move(strains));
   };
   const auto percent = [](double strain) { return io::quantity(strain, io::Dimension::ratio); };
@@ -103,7 +78,7 @@ std::vector<ComparedMeasure> compare_sweeps(const SweepRecord& reference, const 
                                             const std::vector<std::string>& measures,
                                             const std::vector<std::string>& only) {
   std::vector<std::string> labels;
-  for (const SweepRecord::Case& one : reference.cases)
+  for (const results::SweepCase& one : reference.cases)
     if (is_chosen(one.label, only) && case_called(other, one.label)) labels.push_back(one.label);
   if (labels.size() < 3)
     throw io::InputError(

@@ -1,0 +1,64 @@
+// What is here: a folder's record read and drawn. What is not: the records (results/).
+#include "app/campaign_pictures.h"
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "report/plot.h"
+#include "report/plot_study.h"
+#include "report/sweep_picture.h"
+#include "results/calibration_record.h"
+#include "results/campaign_folder.h"
+#include "results/run_file.h"
+
+namespace perfora::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void draw_cases(const results::SweepRecord& record, const fs::path& out, const std::string& title) {
+  report::SweepPicture picture = report::sweep_picture(record);
+  if (!title.empty()) picture.title = title;
+  report::plot_sweep(picture, out);
+}
+
+}  // namespace
+
+void draw_campaign(const fs::path& folder, const fs::path& out, const std::string& title) {
+  const std::string kind = results::campaign_kind(folder);
+  if (kind == "study") {
+    results::StudyRecord record = results::read_study_record(folder);
+    if (!title.empty()) record.title = title;
+    report::plot_study(record, out);
+  } else if (kind == "sweep") {
+    results::SweepRecord record = results::read_sweep_record(folder);
+    results::read_sweep_runs(record);
+    draw_cases(record, out, title);
+  } else if (kind == "ensemble") {
+    draw_cases(results::read_ensemble_record(folder), out, title);
+  } else if (kind == "calibration") {
+    report::PlotOptions options;
+    options.title = title;
+    report::plot_reachable(results::read_calibration_record(folder), out, options);
+  } else {
+    throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration", "",
+                         "give a file or folder that perfora wrote");
+  }
+}
+
+bool draw_collapse(const fs::path& folder, const fs::path& out, const std::string& title) {
+  results::SweepRecord record = results::read_sweep_record(folder);
+  results::read_sweep_runs(record);
+  std::vector<report::LabelledRun> rows;
+  for (const results::SweepCase& one : record.cases)
+    for (const results::CaseRun& run : one.runs)
+      if (run.replicate == 0 && fs::exists(run.run_file)) rows.push_back({one.label, results::read_run(run.run_file)});
+  if (rows.empty()) return false;
+  report::PlotOptions options;
+  options.title = title.empty() ? "How the cases of " + record.title + " collapse (replicate 0)" : title;
+  report::plot_collapse(rows, out, options);
+  return true;
+}
+
+}  // namespace perfora::app

@@ -1,0 +1,72 @@
+// What is here: reading of files that say what to do with a design. What is not: the design's own file
+// (optimize/evaluate/design.h).
+#include "optimize/campaign/table_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/error.h"
+#include "io/text.h"
+
+namespace perfora::optimize {
+namespace {
+
+constexpr const char* set_table = "set";
+
+std::string section_of(const std::string& key) {
+  return key.substr(0, key.find('.'));
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+TableFile::TableFile(const std::filesystem::path& path, const TableFileForm& form, io::Schema& schema,
+                     const std::vector<std::string>& overrides)
+    : path_(path), form_(form), schema_(schema) {
+  for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
+  for (const std::string& text : overrides) {
+    const std::string section = section_of(text);
+    if (among(form_.sections, section))
+      schema_.set_override(text);
+    else if (section == set_table || among(form_.tables, section))
+      for (io::Entry& entry : io::parse_toml(text, "--set")) take(std::move(entry), "--set");
+    else
+      of_design_.push_back(text);
+  }
+}
+
+void TableFile::take(io::Entry entry, const std::string& source) {
+  const std::string table = section_of(entry.key);
+  if (table != set_table && !among(form_.tables, table)) {
+    if (form_.look) form_.look(entry, source);
+    return io::apply_entries(schema_, {entry}, source);
+  }
+  std::erase_if(entry.key,
+                [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
+  auto& list = table == set_table ? fixed_ : entries_;
+  const std::string key = io::after_section(entry.key);
+  std::erase_if(list, [&](const TableEntry& other) { return other.table == table && other.key == key; });
+  list.push_back({table, key, std::move(entry.value), source});
+}
+
+io::Origin TableFile::origin(const std::string& key) const {
+  const io::Origin known = schema_.find(key) ? schema_.origin(key) : io::Origin{path_.string(), 0, key};
+  return known.file == "default" || known.file.empty() ? io::Origin{path_.string(), 0, key} : known;
+}
+
+std::shared_ptr<DesignFile> TableFile::start(const std::filesystem::path& design) const {
+  const std::string& section = form_.sections.front();
+  if (design.empty())
+    throw io::InputError({path_.string(), 0, section + ".design"}, "no design is named to start from",
+                         "the path of a design file", fmt::format("add design = \"quick.toml\" under [{}]", section));
+  auto start = std::make_shared<DesignFile>(design, of_design_);
+  for (const TableEntry& entry : fixed_) io::apply_entries(start->schema(), {{entry.key, entry.value}}, path_.string());
+  for (const std::string& text : of_design_) start->schema().set_override(text);  // The command line has the last word.
+  return start;
+}
+
+}  // namespace perfora::optimize

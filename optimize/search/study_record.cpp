@@ -1,0 +1,98 @@
+// What is here: a study in words and curves. What is not: its numbers for programs (study_result.cpp).
+#include "optimize/search/study_record.h"
+
+#include <fmt/format.h>
+
+#include "geometry/layout.h"
+#include "io/text.h"
+
+namespace perfora::optimize {
+namespace {
+
+geometry::PerforationLayout layout_of(const DesignFile& design) {
+  return geometry::place_perforations(design.design().layout, design.design().seeds.effective(0).layout);
+}
+
+/// Curves on the fresh seeds where they were run, otherwise of the search.
+std::vector<const Evaluation*> shown(StudyRun& run, const Candidate& candidate) {
+  const auto& keys = run.study().keys;
+  const auto fresh = run.known(candidate, keys.replicates, keys.final_replicates);
+  return fresh.empty() ? run.known(candidate, 0, keys.replicates) : fresh;
+}
+
+std::vector<results::Curve> curves(const std::vector<const Evaluation*>& evaluations) {
+  std::vector<results::Curve> curves;
+  for (const auto* evaluation : evaluations)
+    if (usable(*evaluation)) curves.push_back({evaluation->curve.strain_yy, evaluation->curve.stress_yy});
+  return curves;
+}
+
+void add_points(results::StudyRecord& record, const StudyRun& run) {
+  for (const Trace& trace : run.plan().traces)
+    for (const Visit& visit : trace.visits) {
+      if (!visit.answered) continue;
+      results::StudyPoint point;
+      point.number = static_cast<int>(record.points.size()) + 1;
+      point.arm = run.study().arms[static_cast<std::size_t>(trace.arm)].name + (trace.refine ? " (refine)" : "");
+      point.values = visit.candidate->values;
+      point.feasible = visit.candidate->violation <= 0.0;
+      if (visit.detail.valid) point.score = visit.score;
+      if (visit.candidate == run.plan().best && record.best_number == 0) record.best_number = point.number;
+      record.points.push_back(std::move(point));
+    }
+}
+
+void add_facts(results::StudyRecord& record, const StudyRun& run) {
+  const Study& study = run.study();
+  const Candidate& best = *run.plan().best;
+  const Candidate& start = *run.plan().start.candidate;
+  const auto& schema = study.start->schema();
+  for (const DesignChange& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
+    record.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::readable(choice.value),
+                            io::readable(schema.find(choice.key)->get())});
+  for (std::size_t k = 0; k < study.variables.size(); ++k) {
+    const auto& variable = study.variables[k];
+    record.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
+                            io::quantity(best.values[k], variable.dimension),
+                            io::quantity(start.values[k], variable.dimension)});
+  }
+  record.facts.push_back({"thinnest wall", io::quantity(best.layout.thinnest_wall, io::Dimension::length),
+                          io::quantity(start.layout.thinnest_wall, io::Dimension::length)});
+  record.facts.push_back({"porosity", io::quantity(best.layout.porosity, io::Dimension::ratio),
+                          io::quantity(start.layout.porosity, io::Dimension::ratio)});
+  const Score& start_score = run.plan().start.detail;
+  record.facts.push_back(
+      {"score", io::number(run.plan().best_score.value), start_score.valid ? io::number(start_score.value) : ""});
+}
+
+}  // namespace
+
+results::StudyRecord study_record(StudyRun& run) {
+  const Study& study = run.study();
+  const Plan& plan = run.plan();
+  results::StudyRecord record;
+  record.title = study.file.stem().string();
+  record.subtitle =
+      fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
+                  study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
+  record.target = study.target.plateau_stress;
+  record.window_start = study.target.window[0];
+  record.window_end = study.target.window[1];
+  add_points(record, run);
+  if (!plan.best) return record;
+  const auto best = shown(run, *plan.best);
+  const auto start = shown(run, *plan.start.candidate);
+  const auto best_score = score_of(study.target, best), start_score = score_of(study.target, start);
+  record.best = curves(best);
+  record.start = curves(start);
+  record.best_plateau = best_score.plateau_mean;
+  if (best_score.replicates > 1) record.best_plateau_deviation = best_score.plateau_std;
+  if (start_score.replicates > start_score.failed) record.start_plateau = start_score.plateau_mean;
+  if (record.start_plateau && start_score.replicates > 1) record.start_plateau_deviation = start_score.plateau_std;
+  record.best_layout = layout_of(design_of(study, *plan.best));
+  record.start_layout = layout_of(*study.start);
+  add_facts(record, run);
+  return record;
+}
+
+}  // namespace perfora::optimize

@@ -1,0 +1,201 @@
+// What is here: records of studies to and from their files. What is not: how they are filled (optimize/search/).
+#include "results/study_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geometry/hole_row.h"
+#include "io/csv.h"
+#include "io/error.h"
+#include "io/journal.h"
+#include "results/campaign_folder.h"
+#include "results/json.h"
+
+namespace perfora::results {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* schema = "perfora.study_picture/1";
+
+json or_null(const std::optional<double>& value) {
+  return value ? number(*value) : json(nullptr);
+}
+
+std::optional<double> optional_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+json curves_json(const std::vector<Curve>& curves) {
+  json array = json::array();
+  for (const Curve& curve : curves) array.push_back({{"strain", curve.strain}, {"stress", curve.stress}});
+  return array;
+}
+
+std::vector<Curve> curves_in(const json& array) {
+  std::vector<Curve> curves;
+  for (const json& one : array)
+    curves.push_back({one.at("strain").get<std::vector<double>>(), one.at("stress").get<std::vector<double>>()});
+  return curves;
+}
+
+json layout_json(const std::optional<geometry::PerforationLayout>& layout) {
+  if (!layout) return nullptr;
+  json holes = json::array();
+  for (const geometry::Perforation& hole : layout->perforations) {
+    const geometry::HoleRow row = geometry::hole_row(hole);
+    holes.push_back({{"shape", row.shape}, {"numbers", row.numbers}});
+  }
+  return {{"width", layout->width}, {"height", layout->height}, {"holes", holes}};
+}
+
+std::optional<geometry::PerforationLayout> layout_in(const json& object) {
+  if (object.is_null()) return std::nullopt;
+  geometry::PerforationLayout layout{object.at("width").get<double>(), object.at("height").get<double>(), {}};
+  for (const json& row : object.at("holes"))
+    if (const auto hole =
+            geometry::hole_of({row.at("shape").get<std::string>(), row.at("numbers").get<std::vector<double>>()}))
+      layout.perforations.push_back(*hole);
+  return layout;
+}
+
+/// A value of a design as result.json has it, for people.
+std::string value_text(const json& object, const std::string& key) {
+  if (!object.is_object() || !object.contains(key)) return {};
+  const json& value = object.at(key);
+  return value.is_string()   ? value.get<std::string>()
+         : value.is_number() ? fmt::format("{:.4g}", value.get<double>())
+                             : value.dump();
+}
+
+/// evaluations.csv: the points, and which of them is the best of result.json.
+void add_points(StudyRecord& record, const fs::path& file, const json& result) {
+  const io::TextTable table = io::read_text_table(file);
+  const std::size_t stage = table.column("stage"), arm = table.column("arm"), status = table.column("status"),
+                    score = table.column("score"), first = table.column("number") + 1;
+  const json best = result.value("best", json());
+  for (const std::vector<std::string>& row : table.rows) {
+    if (row[stage] == "start" || row[status] == "open") continue;
+    StudyPoint point;
+    point.number = static_cast<int>(record.points.size()) + 1;
+    point.arm = row[arm] + (row[stage] == "refine" ? " (refine)" : "");
+    point.feasible = row[status] != "breaks a constraint";
+    if (row[status] == "completed") point.score = io::number_in(row[score]);
+    bool same = best.is_object() && point.score == result.value("score", NAN);
+    for (std::size_t k = first; k < status; ++k) {
+      point.values.push_back(io::number_in(row[k]));
+      same = same && best.value(table.names[k], NAN) == point.values.back();
+    }
+    if (same && record.best_number == 0) record.best_number = point.number;
+    record.points.push_back(std::move(point));
+  }
+}
+
+StudyRecord from_results(const fs::path& folder) {
+  const json result = json::parse(io::read_file(folder / "result.json"), nullptr, false);
+  if (!result.is_object() || result.value("schema", "") != "perfora.optimize/1")
+    throw io::InputError({(folder / "result.json").string(), 0, ""}, "this is not the result of a study", "",
+                         "give the folder of a `perfora optimize`");
+  StudyRecord record;
+  record.title = campaign_title(folder);
+  const int replicates = result.value("replicates", 1);
+  record.subtitle =
+      fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", result.value("algorithm", ""), replicates,
+                  replicates == 1 ? "" : "s", result.value("evaluations", 0), result.value("reason", ""));
+  record.target = optional_in(result, "target");
+  const auto window = result.value("plateau_window", std::vector<double>());
+  if (window.size() == 2) record.window_start = window[0], record.window_end = window[1];
+  const json plateau = result.value("plateau_stress", json());
+  if (plateau.is_object()) {
+    record.best_plateau = optional_in(plateau, "mean");
+    record.best_plateau_deviation = optional_in(plateau, "standard_deviation");
+  }
+  const json best = result.value("best", json()), start = result.value("start", json());
+  if (best.is_object())
+    for (const auto& [key, value] : best.items())
+      record.facts.push_back({key.substr(key.find('.') + 1), value_text(best, key), value_text(start, key)});
+  record.facts.push_back({"score", value_text(result, "score"), value_text(result, "start_score")});
+  add_points(record, folder / "evaluations.csv", result);
+  return record;
+}
+
+}  // namespace
+
+json to_json(const StudyRecord& record) {
+  json points = json::array(), facts = json::array();
+  for (const StudyPoint& p : record.points)
+    points.push_back({{"number", p.number},
+                      {"arm", p.arm},
+                      {"values", p.values},
+                      {"score", number(p.score)},
+                      {"feasible", p.feasible}});
+  for (const StudyRecord::Fact& fact : record.facts)
+    facts.push_back({{"name", fact.name}, {"best", fact.best}, {"start", fact.start}});
+  return {{"schema", schema},
+          {"title", record.title},
+          {"subtitle", record.subtitle},
+          {"score_label", record.score_label},
+          {"points", points},
+          {"best_number", record.best_number},
+          {"best", curves_json(record.best)},
+          {"start", curves_json(record.start)},
+          {"best_plateau", or_null(record.best_plateau)},
+          {"best_plateau_deviation", or_null(record.best_plateau_deviation)},
+          {"start_plateau", or_null(record.start_plateau)},
+          {"start_plateau_deviation", or_null(record.start_plateau_deviation)},
+          {"target", or_null(record.target)},
+          {"target_tolerance", or_null(record.target_tolerance)},
+          {"window", {record.window_start, record.window_end}},
+          {"best_layout", layout_json(record.best_layout)},
+          {"start_layout", layout_json(record.start_layout)},
+          {"facts", facts}};
+}
+
+StudyRecord study_record_from_json(const json& object) {
+  StudyRecord record;
+  record.title = object.at("title").get<std::string>();
+  record.subtitle = object.at("subtitle").get<std::string>();
+  record.score_label = object.at("score_label").get<std::string>();
+  for (const json& p : object.at("points")) {
+    StudyPoint& point = record.points.emplace_back();
+    point.number = p.at("number").get<int>();
+    point.arm = p.at("arm").get<std::string>();
+    point.values = p.at("values").get<std::vector<double>>();
+    if (p.at("score").is_number()) point.score = p.at("score").get<double>();
+    point.feasible = p.at("feasible").get<bool>();
+  }
+  record.best_number = object.at("best_number").get<int>();
+  record.best = curves_in(object.at("best"));
+  record.start = curves_in(object.at("start"));
+  record.best_plateau = optional_in(object, "best_plateau");
+  record.best_plateau_deviation = optional_in(object, "best_plateau_deviation");
+  record.start_plateau = optional_in(object, "start_plateau");
+  record.start_plateau_deviation = optional_in(object, "start_plateau_deviation");
+  record.target = optional_in(object, "target");
+  record.target_tolerance = optional_in(object, "target_tolerance");
+  record.window_start = object.at("window").at(0).get<double>();
+  record.window_end = object.at("window").at(1).get<double>();
+  record.best_layout = layout_in(object.at("best_layout"));
+  record.start_layout = layout_in(object.at("start_layout"));
+  for (const json& fact : object.at("facts"))
+    record.facts.push_back(
+        {fact.at("name").get<std::string>(), fact.at("best").get<std::string>(), fact.at("start").get<std::string>()});
+  return record;
+}
+
+StudyRecord read_study_record(const fs::path& folder) {
+  const fs::path file = folder / "study.json";
+  if (!fs::exists(file)) return from_results(folder);
+  try {
+    return study_record_from_json(json::parse(io::read_file(file)));
+  } catch (const json::exception& error) {
+    throw io::InputError({file.string(), 0, ""}, fmt::format("this is not what a study writes ({})", error.what()), "",
+                         "go on with the study by --resume: it writes the file anew");
+  }
+}
+
+}  // namespace perfora::results

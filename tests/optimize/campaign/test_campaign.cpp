@@ -1,0 +1,216 @@
+// What is here: the course that every campaign takes, on one whose evaluations are numbers: folder, journal, stop,
+// kill, resume, results. What is not: what studies, sweeps and the others ask.
+#include "optimize/campaign/campaign.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "io/journal.h"
+#include "io/progress.h"
+#include "tests/optimize/evaluate/design_support.h"
+#include "tests/optimize/search/study_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Asks for the plateaus of designs "0", "1", ... until `count` are known. With `pairs` two answers make one event.
+class Counting final : public Campaign {
+ public:
+  Counting(std::string name, int count, WorkOptions options, bool pairs = false)
+      : name_(std::move(name)), count_(count), pairs_(pairs) {
+    open(std::move(options));
+  }
+
+  double sum() const {
+    double found = 0.0;
+    for (const auto& [key, evaluation] : answers()) found += evaluation.summary.plateau_stress;
+    return found;
+  }
+
+  std::string kind() const override { return "count"; }
+  std::vector<std::string> own_files() const override { return {"journal.jsonl", "sum.txt", "part-*"}; }
+  json identity() const override { return {{"name", name_}}; }
+  void check_same(const json& head, const std::filesystem::path& journal) const override {
+    if (head.at("name") != name_) throw io::InputError({journal.string(), 0, "name"}, "another count");
+  }
+  void read_event(const json& event, Answers& answers) const override {
+    if (event.at("event") != "pair") return;
+    const int first = event.at("first").get<int>();
+    for (int k = first; k < first + 2; ++k) answers.add(request(k).key(), plateau(request(k)));
+  }
+  std::vector<Asked> pending(const Answers& answers) override {
+    std::vector<Asked> asked;
+    for (int k = 0; k < count_; ++k)
+      if (!is_known(k, answers)) asked.push_back({request(k).key(), request(k), std::to_string(k)});
+    remaining_ = static_cast<int>(asked.size());
+    return asked;
+  }
+  json event_of(const Asked& asked, const Answer& answer, const Answers& answers) const override {
+    if (!pairs_) return Campaign::event_of(asked, answer, answers);
+    const int own = std::stoi(asked.label), other = own % 2 == 0 ? own + 1 : own - 1;
+    if (!is_known(other, answers)) return nullptr;
+    return {{"event", "pair"}, {"first", std::min(own, other)}};
+  }
+  std::string on_answer(const Asked& asked, const Evaluation&) override {
+    heard.push_back(asked.label);
+    return {};
+  }
+  std::int64_t remaining() const override { return remaining_; }
+  CampaignEnd finished() override { return {results::RunStatus::completed, "counted"}; }
+  void write_results() override {
+    written.push_back(std::string(results::status_name(status())) + ", " + reason());
+    io::write_file(options().folder / "sum.txt", std::to_string(sum()));
+  }
+
+  std::vector<std::string> heard, written;
+
+  static Request request(int k) {
+    DesignFile design;
+    design.design().seeds.seed = k + 1;
+    return make_request(design, 0);
+  }
+  static Evaluation plateau(const Request& request) {
+    Evaluation evaluation = completed(request);
+    evaluation.summary.plateau_stress = static_cast<double>(request.design->seeds.seed - 1);
+    return evaluation;
+  }
+
+ private:
+  static bool is_known(int k, const Answers& answers) {
+    return answer_for(request(k), request(k).key(), answers) != nullptr;
+  }
+
+  std::string name_;
+  int count_, remaining_ = 0;
+  bool pairs_;
+};
+
+class CampaignTest : public ::testing::Test {
+ protected:
+  void SetUp() override { io::set_verbosity(io::Verbosity::quiet); }
+  void TearDown() override { io::set_verbosity(io::Verbosity::normal); }
+
+  /// The evaluation number `stop_after` of all asks for a stop; 0: none does.
+  WorkOptions options(bool resume = false, int stop_after = 0) {
+    WorkOptions made;
+    made.folder = folder_ / "work";
+    made.resume = resume;
+    made.command_line = "count";
+    made.make_executor = [this] {
+      return make_calling_executor([this](const Request& request) {
+        if (++asked_ == stop_after_) source_->request();
+        return Counting::plateau(request);
+      });
+    };
+    stop_after_ = stop_after;
+    source_ = std::make_unique<io::CancellationSource>();
+    made.cancellation = source_->token();
+    return made;
+  }
+
+  std::vector<std::string> events() const {
+    std::vector<std::string> names;
+    std::ifstream journal(folder_ / "work/journal.jsonl");
+    for (std::string line; std::getline(journal, line);)
+      names.push_back(json::parse(line.substr(line.find('{'))).at("event"));
+    return names;
+  }
+
+  DesignFolder folder_;
+  int asked_ = 0, stop_after_ = 0;
+  std::unique_ptr<io::CancellationSource> source_;
+};
+
+TEST_F(CampaignTest, AsksUntilNothingIsLeft) {
+  Counting run("a", 4, options());
+  EXPECT_EQ(run.status(), results::RunStatus::stopped) << "not begun";
+  run.run();
+  EXPECT_EQ(run.status(), results::RunStatus::completed);
+  EXPECT_EQ(run.reason(), "counted");
+  EXPECT_EQ(run.sum(), 0.0 + 1.0 + 2.0 + 3.0);
+  EXPECT_THAT(run.heard, ElementsAre("0", "1", "2", "3"));
+  EXPECT_THAT(run.written, ElementsAre("completed, counted"));
+  EXPECT_THAT(events(), ElementsAre("count", "evaluation", "evaluation", "evaluation", "evaluation", "finished"));
+  std::ifstream journal(folder_ / "work/journal.jsonl");
+  std::string line;
+  std::getline(journal, line);
+  EXPECT_EQ(json::parse(line.substr(line.find('{'))),
+            json({{"event", "count"}, {"name", "a"}, {"results_version", results_version}, {"command_line", "count"}}));
+}
+
+TEST_F(CampaignTest, StoppedItKeepsWhatIsFinishedAndGoesOn) {
+  {
+    // The evaluation during which the stop comes is finished and kept: this one cannot be cut short.
+    Counting run("a", 4, options(false, 2));
+    run.run();
+    EXPECT_EQ(run.status(), results::RunStatus::stopped);
+    EXPECT_THAT(run.reason(), HasSubstr("--resume"));
+    EXPECT_EQ(run.answers().size(), 2u);
+    EXPECT_THAT(run.written, ElementsAre("stopped, " + run.reason()));
+  }
+  Counting more("a", 5, options(true));
+  more.run();
+  EXPECT_EQ(asked_, 5) << "nothing is asked twice";
+  EXPECT_EQ(more.sum(), 10.0);
+  EXPECT_THAT(events(), ElementsAre("count", "evaluation", "evaluation", "stop", "count", "evaluation", "evaluation",
+                                    "evaluation", "finished"));
+}
+
+TEST_F(CampaignTest, ResultsOfUnfinishedWorkAreThereToLookAt) {
+  WorkOptions often = options();
+  often.results_interval = std::chrono::seconds(0);
+  Counting run("a", 3, often);
+  run.run();
+  EXPECT_THAT(run.written, ElementsAre("stopped, not finished yet", "stopped, not finished yet", "completed, counted"));
+}
+
+// A first half without its second is not in the journal: it is asked again.
+TEST_F(CampaignTest, AnswersThatMakeOneEventAreWrittenTogether) {
+  {
+    Counting run("a", 4, options(false, 3), true);
+    run.run();
+    EXPECT_EQ(run.answers().size(), 3u);
+  }
+  EXPECT_THAT(events(), ElementsAre("count", "pair", "stop"));
+  Counting again("a", 4, options(true), true);
+  EXPECT_EQ(again.answers().size(), 2u);
+  again.run();
+  EXPECT_EQ(asked_, 3 + 2);
+  EXPECT_EQ(again.sum(), 6.0);
+  EXPECT_THAT(events(), ElementsAre("count", "pair", "stop", "count", "pair", "finished"));
+}
+
+TEST_F(CampaignTest, FoldersOfOtherWorkAreRefused) {
+  {
+    Counting run("a", 1, options());
+    run.run();
+    EXPECT_THAT(complaint([&] { Counting("a", 1, options(true)); }), HasSubstr("in use"));
+  }
+  EXPECT_THAT(complaint([&] { Counting("a", 1, options()); }), HasSubstr("holds a count already; go on with it by"));
+  EXPECT_THAT(complaint([&] { Counting("b", 1, options(true)); }), HasSubstr("another count"));
+  {
+    std::filesystem::remove(folder_ / "work/journal.jsonl");
+    io::Journal(folder_ / "work/journal.jsonl").append(R"({"event":"ensemble"})");
+  }
+  EXPECT_THAT(complaint([&] { Counting("a", 1, options(true)); }), HasSubstr("holds an ensemble, not a count"));
+}
+
+TEST_F(CampaignTest, ForceRemovesItsOwnFilesAlone) {
+  std::filesystem::create_directory(folder_ / "work");
+  for (const char* name : {"sum.txt", "part-1", "parting words"}) folder_.file(std::string("work/") + name, "here");
+  EXPECT_THAT(complaint([&] { Counting("a", 1, options()); }), HasSubstr("a count would overwrite this file"));
+  WorkOptions forced = options();
+  forced.force = true;
+  Counting("a", 1, forced);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "work/sum.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "work/part-1"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "work/parting words"));
+}
+
+}  // namespace
+}  // namespace perfora::optimize
