@@ -197,10 +197,10 @@ class Search {
       return results::statistic_of(name, values);
     };
     StrengthPoint point{shear_ratio, rupture_delay, strengths("tension"), strengths("compression"), of_chart};
-    io::log_info(fmt::format(
-        "zeta_max {:.3g}, delta_t0/delta_n0 {:.4g}: tension {:.4g} kPa, compression {:.4g} kPa, "
-        "ratio {:.3f}",
-        rupture_delay, shear_ratio, 1e-3 * point.tensile.mean, 1e-3 * point.compressive.mean, point.ratio()));
+    io::log_info(fmt::format("zeta_max {}, delta_t0/delta_n0 {}: tension {}, compression {}, ratio {}",
+                             io::number(rupture_delay), io::number(shear_ratio),
+                             io::quantity(point.tensile.mean, io::Dimension::stress),
+                             io::quantity(point.compressive.mean, io::Dimension::stress), io::number(point.ratio())));
     result_.points.push_back(std::move(point));
     return &result_.points.back();
   }
