@@ -150,10 +150,10 @@ class CalibrationRun final : public Campaign {
     const double tension = results::statistic_of("tension", strengths->tension).mean;
     const double compression = results::statistic_of("compression", strengths->compression).mean;
     const StrengthQuestion& question = questions_.at(point);
-    return fmt::format(
-        "zeta_max {:.3g}, delta_t0/delta_n0 {:.4g}: tension {:.4g} kPa, compression {:.4g} kPa, "
-        "ratio {:.3f}",
-        question.rupture_delay, question.shear_ratio, 1e-3 * tension, 1e-3 * compression, compression / tension);
+    return fmt::format("zeta_max {}, delta_t0/delta_n0 {}: tension {}, compression {}, ratio {}",
+                       io::number(question.rupture_delay), io::number(question.shear_ratio),
+                       io::quantity(tension, io::Dimension::stress), io::quantity(compression, io::Dimension::stress),
+                       io::number(compression / tension));
   }
 
   std::int64_t remaining() const override {
