@@ -66,6 +66,8 @@ constexpr Measure table[] = {
      "external work per area of the cell up to the end of the plateau window", 7},
     {"cundall_share", &Summary::cundall_share, ratio, curve, "share of Cundall damping in the work",
      "of the external work up to the end of the plateau window, or of the run where it ends before", 8},
+    {"broken_in_window", &Summary::broken_in_window, count, curve, "bonds broken in the window",
+     "bonds that break within the plateau window"},
     {"broken_bonds", &Summary::broken_bonds, count, breakage, "broken bonds", "bonds broken in the run", 9},
     {"broken_in_tension", &Summary::broken_in_tension, count, breakage, "  in tension",
      "of these: normal displacement beyond its part of the yield function"},

@@ -241,6 +241,8 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   Piece deviation = window;
   for (double& y : deviation.y) y -= summary.plateau_stress;
   summary.undulation = total != 0.0 ? absolute_integral(deviation) / total : nan;
+  summary.broken_in_window =
+      interpolate(strain, history.broken_bonds, plateau_end) - interpolate(strain, history.broken_bonds, plateau_start);
   summary.energy_absorbed = interpolate(strain, history.external_work, plateau_end) / reference_area;
   summary.densification_strain = last_upward_crossing(strain, stress, densification_factor * summary.plateau_stress);
 }

@@ -2,6 +2,7 @@
 // measures (test_measure_table.cpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -55,6 +56,19 @@ TEST(Measures, LinearStress) {
   EXPECT_NEAR(s.densification_strain, 0.39, 1e-9);
   EXPECT_NEAR(s.energy_absorbed, 0.5e5 * 0.16, 1e-6);
   EXPECT_NEAR(s.efficiency_strain, 0.6, 1e-12);  // efficiency e/2 grows to the end
+}
+
+// 1000 bonds a unit of strain break up to 0.3 and none behind: 100 in [0.2, 0.4]; none is counted in a window that the
+// run does not reach.
+TEST(Measures, BondsBrokenInTheWindow) {
+  History h = sampled(
+      0.6, 1200, [](double) { return 1.0; }, [](double) { return 0.0; });
+  for (std::size_t k = 0; k < h.rows(); ++k) h.broken_bonds[k] = 1000.0 * std::min(h.strain_yy[k], 0.3);
+  Summary s;
+  measure_curve(h, 0.2, 0.4, 1.0, s);
+  EXPECT_NEAR(s.broken_in_window, 100.0, 1e-9);
+  measure_curve(h, 0.4, 0.7, 1.0, s);
+  EXPECT_TRUE(std::isnan(s.broken_in_window));
 }
 
 // Window not reached: null, not a number from less.
