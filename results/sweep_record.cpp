@@ -59,7 +59,8 @@ SweepRecord read_sweep_record(const fs::path& path) {
   record.title = campaign_title(record.folder);
   record.reason = object.value("reason", "");
   record.replicates = object.value("replicates", 0);
-  record.measures = object.value("measures", std::vector<std::string>());
+  // Older files do not say which: the two that every sweep is made for.
+  record.measures = object.value("measures", std::vector<std::string>{"first_peak_stress", "plateau_stress"});
   record.plateau_window = object.value("plateau_window", std::vector<double>());
   std::vector<std::string> columns;
   for (const json& one : object["cases"]) {
