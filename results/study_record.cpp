@@ -194,7 +194,7 @@ StudyRecord read_study_record(const fs::path& folder) {
     return study_record_from_json(json::parse(io::read_file(file)));
   } catch (const json::exception& error) {
     throw io::InputError({file.string(), 0, ""}, fmt::format("this is not what a study writes ({})", error.what()), "",
-                         "go on with the study by --resume: it writes the file anew");
+                         "continue the study with --resume: it writes the file anew");
   }
 }
 

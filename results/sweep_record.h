@@ -44,7 +44,7 @@ struct SweepRecord {
   std::string name;   ///< of its folder
   std::string title;  ///< of the file it came from
   std::string reason;
-  int replicates = 0;                 ///< of each case, as asked for
+  int replicates = 0;                 ///< of each case, as requested
   std::vector<std::string> measures;  ///< that its picture shows
   std::vector<SweepCase> cases;
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty

@@ -47,8 +47,8 @@ class Campaign {
   virtual std::vector<std::string> own_files() const = 0;
   /// What the journal's first event says beside `event`, `results_version` and `command_line`.
   virtual nlohmann::json identity() const = 0;
-  /// Throws io::InputError when the first event of a journal is of work that this one cannot go on with. Any may be
-  /// gone on with where it is not overridden.
+  /// Throws io::InputError when the first event of a journal is of work that this one cannot continue. Any may be
+  /// resumed where it is not overridden.
   virtual void check_same(const nlohmann::json& head, const std::filesystem::path& journal) const;
   /// An event of the journal that is neither the first nor an evaluation; may add answers.
   virtual void read_event(const nlohmann::json& event, Answers& answers) const;

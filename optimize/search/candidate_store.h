@@ -1,5 +1,5 @@
 // What is here: the known evaluations of a study as candidates with their scores: what a search is told.
-// What is not: which candidates are asked for (searcher.h), the journal (campaign/evaluation_queue.h).
+// What is not: which candidates are requested (searcher.h), the journal (campaign/evaluation_queue.h).
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace perfora::optimize {
 
-/// One point that a search asked for.
+/// One point that a search requested.
 struct Visit {
   const Candidate* candidate = nullptr;
   bool answered = false;  ///< false: waits for its simulations

@@ -71,7 +71,7 @@ class Searcher {
   virtual std::vector<std::string> warnings(const std::string& algorithm, int variables, int population,
                                             int maxeval) const = 0;
 
-  /// One trace a task, in their order: every point asked for from the start on, until the search has ended or knows
+  /// One trace a task, in their order: every point requested from the start on, until the search has ended or knows
   /// nothing to ask before an open visit is answered. A trace that is not finished has at least one open visit.
   virtual std::vector<Trace> ask(const SearchStage& stage, const CandidateStore& store) const = 0;
 };
