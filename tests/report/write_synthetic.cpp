@@ -17,13 +17,13 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  results::testing::SyntheticRun synthetic =
-      argc > 2 ? results::testing::make_run(0.15, 6, 0.5044e-3, 0.6) : results::testing::make_run(0.05, 2, 1e-3, 0.6);
+  perfora::results::testing::SyntheticRun synthetic =
+      argc > 2 ? perfora::results::testing::make_run(0.15, 6, 0.5044e-3, 0.6) : perfora::results::testing::make_run(0.05, 2, 1e-3, 0.6);
   // A frame in which every bond is broken: viewers must take a grid without cells.
   synthetic.frames.back().bond_pairs.clear();
   synthetic.frames.back().bond_damage.clear();
-  results::testing::write_run(synthetic, folder / "R.h5");
-  results::testing::write_pack(synthetic, folder / "P.h5");
+  perfora::results::testing::write_run(synthetic, folder / "R.h5");
+  perfora::results::testing::write_pack(synthetic, folder / "P.h5");
   write_xdmf(folder / "R.h5", folder / "R.xdmf");
   plot_run(folder / "R.h5", folder / "R.png");
   plot_packing(folder / "P.h5", folder / "P.png");

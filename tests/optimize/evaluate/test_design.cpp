@@ -1,4 +1,4 @@
-// What is here: reading a design, its resolved form, and the example designs. Expected numbers: the paper's Table 1 and
+// What is here: reading a design, its resolved form. Expected numbers: the paper's Table 1 and
 // plain unit arithmetic.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
