@@ -28,6 +28,12 @@ std::string length_text(double metres) {
   return io::quantity(metres, io::Dimension::length);
 }
 
+/// A length in a warning, never below mm: warnings are part of what `perfora check --json` prints, which stays.
+std::string warned_length(double metres) {
+  constexpr double millimetre = 1e-3;
+  return io::in_unit(metres, io::unit_for(std::max(metres, millimetre), io::Dimension::length));
+}
+
 std::string size_text(double width, double height) {
   return io::quantities({width, height}, io::Dimension::length, " x ");
 }
@@ -140,7 +146,7 @@ void check_walls(const geometry::PerforationLayout& layout, const io::Schema& sc
         fmt::format("the thinnest wall, {} between {}, is thinner than two horizons ({}): every disc in "
                     "it feels an edge, so "
                     "it is softer and weaker than the material; smaller discs or thicker walls give truer results",
-                    length_text(wall.thickness), pair_text(wall), length_text(2.0 * horizon_radius)));
+                    warned_length(wall.thickness), pair_text(wall), warned_length(2.0 * horizon_radius)));
 }
 
 void warn_about_holes(const geometry::PerforationLayout& layout, const Design& design,
@@ -151,16 +157,15 @@ void warn_about_holes(const geometry::PerforationLayout& layout, const Design& d
     warnings.push_back(
         fmt::format("the smallest hole, {}, is smaller than the largest disc, {}: it may take "
                     "no disc away",
-                    length_text(smallest), length_text(design.packing.maximum_diameter)));
+                    warned_length(smallest), warned_length(design.packing.maximum_diameter)));
 }
 
 void warn_about_resolution(const Design& design, double mean_diameter, std::vector<std::string>& warnings) {
   const solver::MaterialOptions& material = design.solver.material;
   const double ratio = mean_diameter / material.reference_mean_diameter;
   if (ratio <= coarse_tolerance) return;
-  const io::PrintUnit unit = io::unit_for(mean_diameter, io::Dimension::length);  // one for both: they are compared
-  const std::string mean = io::in_unit(mean_diameter, unit);
-  const std::string reference = io::in_unit(material.reference_mean_diameter, unit);
+  const std::string mean = warned_length(mean_diameter);
+  const std::string reference = warned_length(material.reference_mean_diameter);
   const char* consequence =
       "; the first peak comes out biased, not only noisy, and a wall holds fewer discs: use it to try things out, and "
       "fewer "
