@@ -105,7 +105,8 @@ nlohmann::json read_summary(const io::Hdf5Reader& file) {
 
 void write_history(io::Hdf5Writer& file, const std::string& group, const History& history) {
   for (const History::Column& column : History::columns()) {
-    if (column.optional && (history.*column.values).empty()) continue;
+    const bool empty = (history.*column.values).empty();
+    if (empty && (column.optional || history.rows() > 0)) continue;  // A file without rows keeps its columns.
     file.dataset(group + "/" + column.name, history.*column.values, 0, column.units);
     if (*column.units == '\0') file.attribute(group + "/" + column.name, "units", std::string("1"));
   }

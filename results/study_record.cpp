@@ -85,10 +85,10 @@ void add_points(StudyRecord& record, const fs::path& file, const json& result) {
     point.arm = row[arm] + (row[stage] == "refine" ? " (refine)" : "");
     point.feasible = row[status] != "breaks a constraint";
     if (row[status] == "completed") point.score = io::number_in(row[score]);
-    bool same = best.is_object() && point.score == result.value("score", NAN);
+    bool same = best.is_object() && point.score == result.value("score", double{NAN});
     for (std::size_t k = first; k < status; ++k) {
       point.values.push_back(io::number_in(row[k]));
-      same = same && best.value(table.names[k], NAN) == point.values.back();
+      same = same && best.value(table.names[k], double{NAN}) == point.values.back();
     }
     if (same && record.best_number == 0) record.best_number = point.number;
     record.points.push_back(std::move(point));

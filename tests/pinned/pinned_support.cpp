@@ -229,9 +229,13 @@ std::vector<std::string> journal_lines(const fs::path& folder) {
 
 std::vector<std::string> finished_in(const fs::path& folder) {
   std::vector<std::string> names;
+  bool ensemble = false;
   for (const std::string& line : journal_lines(folder)) {
     const json event = json::parse(line.substr(line.find('{')));
     const std::string what = event.at("event");
+    ensemble = ensemble || what == "ensemble";
+    if (ensemble && what == "evaluation") names.push_back(event.at("evaluation").at("replicate").dump());
+    if (ensemble && what == "evaluation") continue;
     // By what was asked, not by its key: keys may be made of less than they were.
     const bool asked = what == "evaluation" && event.contains("request");
     if (what == "point" || (what == "evaluation" && !asked)) names.push_back(event.at("key").dump());

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/packing_file.h"
 #include "io/error.h"
-#include "io/hdf5.h"
 #include "report/plot.h"
 #include "tests/results/synthetic_run.h"
 
@@ -26,24 +24,17 @@ results::ElasticResult row_of_discs() {
   elastic.clipped.y.assign(4, 2e-3);
   elastic.clipped.radius.assign(4, 0.45e-3);
   elastic.disc_strain = {1e-3, 2e-3, 4e-3, std::numeric_limits<double>::infinity()};
-  elastic.first_bonds = {{0.5e-3}, {3.5e-3}, {1e-3}, {0}};
+  elastic.stiffness.assign(9, 1e8);
+  elastic.affine_stiffness.assign(9, 1e8);
+  for (std::vector<double>& displacement : elastic.displacement) displacement.assign(12, 0.0);
+  elastic.first_bonds = {{0.5e-3}, {3.5e-3}, {1e-3}, {0, 1}, {0}};
   elastic.summary = {{"first_yield_strain", 1e-3}, {"young_y", 1e8}, {"bonds", 3}};
   return elastic;
 }
 
 std::filesystem::path written(const std::string& name, const results::ElasticResult& elastic) {
   const auto path = fresh_folder(name) / "E.h5";
-  io::Hdf5Writer file(path);
-  file.attribute("/", "format", "perfora.elastic/1");
-  geometry::write_packing(file, "/clipped", elastic.clipped);
-  geometry::write_layout(file, "/layout", elastic.layout);
-  file.dataset("/first_yield/disc_strain", elastic.disc_strain);
-  file.dataset("/first_yield/bonds/x", elastic.first_bonds.x);
-  file.dataset("/first_yield/bonds/y", elastic.first_bonds.y);
-  file.dataset("/first_yield/bonds/strain", elastic.first_bonds.strain);
-  file.dataset("/first_yield/bonds/mode", elastic.first_bonds.mode);
-  file.text("/summary", elastic.summary.dump());
-  file.commit();
+  results::write_elastic(path, elastic);
   return path;
 }
 

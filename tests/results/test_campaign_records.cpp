@@ -142,7 +142,7 @@ TEST_F(CampaignRecords, CasesStandWhereTheJournalSays) {
   journal({{{"event", "sweep"},
             {"file", "table.toml"},
             {"grid_key", "material.horizon"},
-            {"each", {{"noise.amplitude", 2}, {"cell.width", 1}}}}});
+            {"each", json::array({json::array({"noise.amplitude", 2}), json::array({"cell.width", 1})})}}});
   const SweepRecord record = read_sweep_record(folder_);
   EXPECT_EQ(record.title, "table");
   EXPECT_EQ(campaign_kind(folder_), "sweep");

@@ -191,7 +191,7 @@ TEST_F(CampaignTest, FoldersOfOtherWorkAreRefused) {
     run.run();
     EXPECT_THAT(complaint([&] { Counting("a", 1, options(true)); }), HasSubstr("in use"));
   }
-  EXPECT_THAT(complaint([&] { Counting("a", 1, options()); }), HasSubstr("holds a count already; go on with it by"));
+  EXPECT_THAT(complaint([&] { Counting("a", 1, options()); }), HasSubstr("holds a count already; continue it with"));
   EXPECT_THAT(complaint([&] { Counting("b", 1, options(true)); }), HasSubstr("another count"));
   {
     std::filesystem::remove(folder_ / "work/journal.jsonl");

@@ -12,7 +12,7 @@ namespace perfora::optimize {
 namespace {
 
 constexpr double row = 5e-4;
-constexpr double long_end = 0.03, short_end = 0.024;
+constexpr double long_end = 0.1, short_end = 0.08;
 
 class MeasuredAnew : public ::testing::Test {
  protected:
