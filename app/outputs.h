@@ -1,5 +1,5 @@
 // What is here: the files beside R.h5 (CSV, XDMF) and the rules for existing outputs of a run. What is not: R.h5 itself
-// (solver).
+// (results/run_file.h).
 #pragma once
 
 #include <filesystem>

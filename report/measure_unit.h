@@ -1,4 +1,5 @@
-// What is here: the unit in which a result is drawn. What is not: results (optimize/), how texts show them (app/).
+// What is here: the unit in which a result is drawn. What is not: the table of measures (results/measure_table.h), how
+// texts show them (io/text.h).
 #pragma once
 
 #include <string>

@@ -115,10 +115,13 @@ std::string describe_journal(const std::filesystem::path& path) {
 
 std::string describe_toml(const std::filesystem::path& path) {
   const std::vector<io::Entry> entries = io::read_toml(path);
-  const bool study = std::any_of(entries.begin(), entries.end(),
-                                 [](const io::Entry& entry) { return entry.key.starts_with("study."); });
-  std::string text = fmt::format("{} {}: {} keys set; `perfora check` says what it would run\n",
-                                 study ? "Study" : "Design", path.string(), entries.size());
+  const auto has = [&](const char* section) {
+    return std::any_of(entries.begin(), entries.end(),
+                       [&](const io::Entry& entry) { return entry.key.starts_with(section); });
+  };
+  const char* kind = has("study.") ? "Study" : has("sweep.") ? "Sweep" : has("calibrate.") ? "Calibration" : "Design";
+  std::string text =
+      fmt::format("{} {}: {} keys set; `perfora check` says what it would run\n", kind, path.string(), entries.size());
   std::string section;
   for (const io::Entry& entry : entries) {
     const std::size_t dot = entry.key.find('.');

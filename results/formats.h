@@ -1,4 +1,5 @@
-// What is here: the names of all formats that Perfora writes (docs/user/formats.md). What is not: what they hold.
+// What is here: names of the formats of files, and of records that several rooms name (docs/user/formats.md). What is
+// not: what they hold, records that one file alone names.
 #pragma once
 
 namespace perfora::results {

@@ -1,5 +1,5 @@
 // What is here: discs and intact bonds of a run at one strain, as files and pictures take them. What is not: how a
-// frame is taken (solver/frame.h), files (frame_file.h).
+// frame is taken (solver/frame.h), files (file_parts.h, run_file.h).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // What is here: a result over several replicates: mean, deviation, interval, extremes. What is not: which results are
-// taken (measures.h).
+// taken (measure_table.h).
 #pragma once
 
 #include <string>

@@ -51,7 +51,7 @@ SweepRecord read_sweep_record(const fs::path& path) {
   if (!fs::exists(file))
     throw refuse("this folder holds no result of a sweep (a sweep writes it when it ends or is stopped)");
   const json object = json::parse(io::read_file(file), nullptr, false);
-  if (!object.is_object() || object.value("schema", "") != "perfora.sweep/1" || !object.contains("cases"))
+  if (!object.is_object() || object.value("schema", "") != sweep_schema || !object.contains("cases"))
     throw refuse("this is not the result of a sweep");
   SweepRecord record;
   record.folder = fs::absolute(file).parent_path();

@@ -162,7 +162,7 @@ json to_json(const Ensemble& ensemble) {
   json runs = json::array();
   for (const Evaluation& evaluation : ensemble.replicates) runs.push_back(to_json(evaluation, false));
   const char* status = results::status_name(ensemble.status);
-  return {{"schema", "perfora.ensemble/1"},
+  return {{"schema", results::ensemble_schema},
           {"status", status},
           {"reason", ensemble.reason},
           {"results_version", results_version},

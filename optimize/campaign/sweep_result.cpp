@@ -104,7 +104,7 @@ json to_json(const SweepRun& run) {
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }
-  return {{"schema", "perfora.sweep/1"},
+  return {{"schema", results::sweep_schema},
           {"status", results::status_name(run.status())},
           {"reason", run.reason()},
           {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},

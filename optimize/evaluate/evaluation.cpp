@@ -1,5 +1,5 @@
-// What is here: the way of one design: layout, packing, clipping, compression. What is not: JSON (json.cpp), requests
-// (request.cpp), P.h5 (pack_file.cpp).
+// What is here: the way of one design: layout, packing, clipping, compression. What is not: JSON (results/json.cpp),
+// requests (request.cpp), P.h5 (pack_file.cpp).
 #include "optimize/evaluate/evaluation.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-// What is here: one evaluation of a design, the function that walks the whole way to it, and its JSON form (journal
-// line, answer of a worker, result of the command line). What is not: requests (request.h), processes (executor.h).
+// What is here: one evaluation of a design and the function that walks the whole way to it. What is not: its record
+// and JSON form (results/evaluation.h, results/json.h), requests (request.h), processes
+// (optimize/campaign/executor.h).
 #pragma once
 
 #include <filesystem>

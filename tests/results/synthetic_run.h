@@ -1,5 +1,5 @@
 // What is here: made-up runs and packings with the shape of real ones, in memory and as R.h5 and P.h5, for the tests of
-// this room. What is not: mechanics; nothing here is a result.
+// results and report. What is not: mechanics; nothing here is a result.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,10 @@
 // What is here: a compression that is asked to stop from another thread, and that only the one asked stops.
 // What is not: tokens (io/test_cancellation.cpp), the bits of a checkpoint (test_walls.cpp).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <string>
 #include <thread>
 
 #include "io/cancellation.h"
@@ -38,8 +40,10 @@ class Stopping : public testing::Test {
 
   const geometry::Packing packing;
   const geometry::PerforationLayout layout;
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "perfora-test-stopping.h5";
-  const std::filesystem::path part = std::filesystem::temp_directory_path() / "perfora-test-stopping.part";
+  // Tests of this file may run at the same time, each in a process of its own.
+  const std::string name = "perfora-test-stopping-" + std::to_string(::getpid());
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / (name + ".h5");
+  const std::filesystem::path part = std::filesystem::temp_directory_path() / (name + ".part");
 };
 
 TEST_F(Stopping, TheRunThatIsAskedWritesACheckpointAndTheNextOneEnds) {

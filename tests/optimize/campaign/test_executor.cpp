@@ -1,5 +1,5 @@
 // What is here: both executors: answers, crashes, garbage, time limits, stops, and that no child outlives its parent.
-// What is not: what is asked (driver.h).
+// What is not: what is asked (campaign.h).
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
