@@ -12,6 +12,7 @@
 #include "io/error.h"
 #include "io/journal.h"
 #include "results/campaign_folder.h"
+#include "results/formats.h"
 #include "results/statistic.h"
 #include "results/sweep_places.h"
 

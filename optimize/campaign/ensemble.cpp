@@ -9,6 +9,7 @@
 #include "io/journal.h"
 #include "optimize/campaign/campaign.h"
 #include "optimize/evaluate/request.h"
+#include "results/formats.h"
 #include "results/measure_table.h"
 
 namespace perfora::optimize {

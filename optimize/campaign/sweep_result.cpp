@@ -8,6 +8,7 @@
 #include "io/csv.h"
 #include "io/journal.h"
 #include "io/text.h"
+#include "results/formats.h"
 
 namespace perfora::optimize {
 namespace {

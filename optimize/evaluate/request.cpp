@@ -76,7 +76,7 @@ Request request_from_json(const json& record, DesignTexts* known) {
   const auto text = record.at("design").get<std::string>();
   std::shared_ptr<const Design>& design = (known ? *known : none)[text];
   if (!design) design = std::make_shared<const Design>(DesignFile::from_toml(text, "request").design());
-  Request request{design, record.at("replicate").get<int>(), record.at("until").get<double>()};
+  Request request{design, record.at("replicate").get<int>(), record.at("until").get<double>(), {}};
   request.fidelity = record.value("fidelity", "");
   request.run_file = record.value("run_file", "");
   request.frames = record.value("frames", false);
