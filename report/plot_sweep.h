@@ -34,7 +34,7 @@ struct SweepGroup {
 
 struct SweepPicture {
   std::string title, subtitle;
-  std::vector<std::string> measures;  ///< names such as "plateau_stress": their ends say the unit
+  std::vector<std::string> measures;  ///< keys of the table of measures: "plateau_stress"
   std::vector<SweepGroup> groups;
   std::vector<SweepPoint> base;  ///< the design itself, drawn behind every group: none or one
 };
