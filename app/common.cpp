@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "optimize/evaluate/design.h"
 #include "results/summary_text.h"
 

@@ -1,6 +1,6 @@
 // What is here: `perfora evaluate`: one design compressed (R.h5, R.csv, R.xdmf), an ensemble of replicates in a folder,
-// or the elastic answer alone. What is not: the evaluation (optimize/evaluate/evaluation.h,
-// optimize/evaluate/elastic_answer.h), statistics (optimize/campaign/ensemble.h).
+// or the elastic response alone. What is not: the evaluation (optimize/evaluate/evaluation.h,
+// optimize/evaluate/elastic_response.h), statistics (optimize/campaign/ensemble.h).
 #include <fmt/format.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "optimize/campaign/ensemble.h"
-#include "optimize/evaluate/elastic_answer.h"
+#include "optimize/evaluate/elastic_response.h"
 #include "optimize/evaluate/evaluation.h"
 
 namespace perfora::app {
@@ -60,7 +60,7 @@ void say_how_it_ended(results::RunStatus status, const std::string& reason, cons
 /// What the run itself says against its numbers (docs/user/theory.md, "Ledger").
 std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluation,
                                            const solver::LoadingOptions& loading) {
-  constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;
+  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05;
   const results::Summary& s = evaluation.summary;
   std::vector<std::string> warnings;
   if (s.max_overlap_in_run > small_overlap)
@@ -69,7 +69,7 @@ std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluatio
                     "discs can bear; "
                     "take the stress of the last strains as a lower bound",
                     io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
-  if (s.kinetic_ratio_at_peak > small_kinetic_share)
+  if (s.kinetic_ratio_at_peak > small_kinetic_fraction)
     warnings.push_back(fmt::format(
         "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
         io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
@@ -113,16 +113,16 @@ void refuse_with_elastic(const EvaluateFlags& flags) {
   for (const auto& [given, name] : others)
     if (given)
       throw io::InputError({"--elastic", 0, ""},
-                           fmt::format("--elastic and {} exclude each other: the elastic answer is found at once, "
+                           fmt::format("--elastic and {} exclude each other: the elastic response is found at once, "
                                        "without a run",
                                        name),
                            "", "give only one of them");
 }
 
-/// The elastic answer knows no edges: it is that of the periodic block.
+/// The elastic response knows no edges: it is that of the periodic block.
 void warn_about_edges(const solver::BoundaryOptions& boundary, std::vector<std::string>& warnings) {
   if (boundary.top_bottom != solver::TopBottom::periodic || boundary.sides != solver::Sides::periodic)
-    warnings.push_back("--elastic answers for the periodic block; [boundary] is not looked at");
+    warnings.push_back("--elastic responses for the periodic block; [boundary] is not looked at");
 }
 
 int evaluate_elastic(const EvaluateFlags& flags) {
@@ -136,8 +136,8 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   check_new_output(output, flags.common.force);
   log_warnings(warnings);
   ProgressLine progress("packing", flags.common.quiet);
-  const optimize::ElasticAnswer answer = optimize::elastic_answer(design, evaluate_options(flags, progress), 0);
-  progress.finish(fmt::format("{} discs, {}; elastic answer in {} ({} iterations)",
+  const optimize::ElasticResponse answer = optimize::elastic_response(design, evaluate_options(flags, progress), 0);
+  progress.finish(fmt::format("{} discs, {}; elastic response in {} ({} iterations)",
                               io::count(answer.packed.summary.discs), io::duration(answer.packing_seconds),
                               io::duration(answer.solution_seconds), answer.response.iterations));
   const auto record = optimize::to_json(answer);
@@ -147,7 +147,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   if (reached)
     io::log_info("written: " + output.string());
   else
-    io::log_error("there is no elastic answer, nothing was written: " + answer.reason);
+    io::log_error("there is no elastic response, nothing was written: " + answer.reason);
   return exit_code_of(answer.status);
 }
 

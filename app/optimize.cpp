@@ -51,7 +51,7 @@ void announce(const optimize::Study& study) {
 
 /// Whether the run file there is of this very design.
 bool is_run_of(const fs::path& run_file, const optimize::DesignFile& design) {
-  return io::Hdf5Reader(run_file).text("/config") == design.schema().to_toml();
+  return optimize::same_configuration(io::Hdf5Reader(run_file).text("/config"), design);
 }
 
 /// The best design once more (replicate 0) with its frames: best.h5, its CSV and XDMF. The search itself keeps coarse

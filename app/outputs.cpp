@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "report/xdmf.h"
 #include "results/run_file.h"
 

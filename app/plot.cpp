@@ -1,4 +1,4 @@
-// What is here: `perfora plot`: R.h5, P.h5, T.h5, an elastic answer or a folder of work -> picture; several R.h5 in
+// What is here: `perfora plot`: R.h5, P.h5, T.h5, an elastic response or a folder of work -> picture; several R.h5 in
 // one. What is not: drawing (report).
 #include "report/plot.h"
 
@@ -126,7 +126,7 @@ int plot(const PlotFlags& flags) {
 void add_plot(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PlotFlags>();
   CLI::App* command = program.add_subcommand(
-      "plot", "Draw a run or several, a packing, material tests, an elastic answer, or a folder of work");
+      "plot", "Draw a run or several, a packing, material tests, an elastic response, or a folder of work");
   command
       ->add_option("FILE", flags->inputs,
                    "Run file R.h5 or several of them, packing file P.h5, material tests T.h5, file of evaluate "

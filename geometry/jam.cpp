@@ -13,12 +13,12 @@ namespace {
 /// Area of the discs over area of the cell at the start: enough above jamming (0.84 to 0.86) that the memory of the
 /// start is lost.
 constexpr double start_fraction = 0.90;
-/// Each stage keeps this share of the distance to the extrapolated jamming scale; less loses contact, more costs
+/// Each stage keeps this fraction of the distance to the extrapolated jamming scale; less loses contact, more costs
 /// stages.
-constexpr double stage_share = 0.2;
-constexpr double largest_share = 0.9;
-/// The last stage aims at this share of the overlap limit.
-constexpr double aimed_share = 0.65;
+constexpr double stage_fraction = 0.2;
+constexpr double largest_fraction = 0.9;
+/// The last stage aims at this fraction of the overlap limit.
+constexpr double aimed_fraction = 0.65;
 /// Force balance on the way: with 0.03 the pressure of discs still on their way spoils the extrapolation, contact is
 /// lost again and again, and more iterations are spent in the end.
 constexpr double early_residual = 2e-2;
@@ -27,11 +27,11 @@ constexpr double final_residual = 1e-2;
 /// Largest overlap ratio at which contact counts as lost: the scale was lowered too far.
 constexpr double negligible_overlap = 0.1 * overlap_limit;
 /// The first slope of the pressure, over its affine upper bound.
-constexpr double affine_share = 0.6;
+constexpr double affine_fraction = 0.6;
 constexpr int maximum_stages = 60;
-/// Where the discs will be shrunk, overlaps up to this share of what the shrinking opens between two of them do no
+/// Where the discs will be shrunk, overlaps up to this fraction of what the shrinking opens between two of them do no
 /// harm, and the balance that matters is only that of the densest state.
-constexpr double harmless_share = 0.25;
+constexpr double harmless_fraction = 0.25;
 constexpr double rough_residual = 5e-2;
 
 double area_fraction(const SoftDiscs& discs) {
@@ -42,7 +42,7 @@ double area_fraction(const SoftDiscs& discs) {
 
 /// Largest overlap ratio that does no harm in a state at `scale` that will be shrunk to `shrunk`; 0: the usual limits.
 double harmless_overlap(double scale, double shrunk) {
-  const double harmless = shrunk > 0.0 ? harmless_share * (1.0 - shrunk / scale) : 0.0;
+  const double harmless = shrunk > 0.0 ? harmless_fraction * (1.0 - shrunk / scale) : 0.0;
   return harmless > overlap_limit ? harmless : 0.0;
 }
 
@@ -66,7 +66,7 @@ OverlapState settle(OverlapMinimiser& minimiser, double scale, double harmless, 
 double slope_of(const OverlapState& state, double scale, double tight_pressure, double tight_scale) {
   if (tight_scale > scale && tight_pressure > state.pressure)
     return (tight_pressure - state.pressure) / (tight_scale - scale);
-  return affine_share * state.stiffness / scale;
+  return affine_fraction * state.stiffness / scale;
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ JamResult jam(OverlapMinimiser& minimiser, double shrunk, const std::function<vo
     slope = slope_of(state, scale, tight_pressure, tight_scale);
     tight_scale = scale;
     tight_pressure = state.pressure;
-    const double share = std::max(stage_share, aimed_share * overlap_limit / state.max_overlap_ratio);
-    wanted_pressure = std::min(share, largest_share) * state.pressure;
+    const double fraction = std::max(stage_fraction, aimed_fraction * overlap_limit / state.max_overlap_ratio);
+    wanted_pressure = std::min(fraction, largest_fraction) * state.pressure;
     scale -= (state.pressure - wanted_pressure) / slope;
   }
   return result;

@@ -39,8 +39,8 @@ std::vector<Perforation> place_in_rows(const LayoutOptions& options, double stag
   std::vector<Perforation> holes;
   const double pitch_x = options.width / options.columns, pitch_y = options.height / options.rows;
   for (int row = 0; row < options.rows; ++row) {
-    const double height_share = options.rows > 1 ? static_cast<double>(row) / (options.rows - 1) : 0.5;
-    const double diameter = options.diameter * (1.0 + grading * (height_share - 0.5));
+    const double height_fraction = options.rows > 1 ? static_cast<double>(row) / (options.rows - 1) : 0.5;
+    const double diameter = options.diameter * (1.0 + grading * (height_fraction - 0.5));
     for (int column = 0; column < options.columns; ++column)
       holes.push_back(
           {(column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, (row + 0.5) * pitch_y, Circle{diameter}});

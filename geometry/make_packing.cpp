@@ -18,7 +18,7 @@
 #include "geometry/size_law.h"
 #include "io/csv.h"
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/text.h"
 
 namespace perfora::geometry {
@@ -81,10 +81,11 @@ std::int64_t discs_for(double fraction, const SizeLaw& law, const PackingOptions
                 "the cell holds fewer than " + std::to_string(minimum_discs) + " discs",
                 "at least " + std::to_string(minimum_discs) + " discs",
                 "lower mean_diameter and maximum_diameter or enlarge the cell");
-  const double dense_share = std::sqrt(0.9 / fraction);  // at jamming the discs are this much larger
-  const double side = largest_discs_along_a_side * dense_share * options.maximum_diameter;
+  const double dense_fraction = std::sqrt(0.9 / fraction);  // at jamming the discs are this much larger
+  const double side = largest_discs_along_a_side * dense_fraction * options.maximum_diameter;
   refuse_unless(std::min(width, height) >= side, "maximum_diameter", "the largest discs are too large for the cell",
-                "at most 1/" + std::to_string(static_cast<int>(std::ceil(largest_discs_along_a_side * dense_share))) +
+                "at most 1/" +
+                    std::to_string(static_cast<int>(std::ceil(largest_discs_along_a_side * dense_fraction))) +
                     " of its shorter side",
                 "lower maximum_diameter or enlarge the cell");
   return static_cast<std::int64_t>(count);

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/text.h"
 
 namespace perfora::io {

@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "io/error.h"
-#include "io/journal.h"
 
 namespace perfora::io {
 namespace {

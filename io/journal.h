@@ -1,9 +1,8 @@
-// What is here: the append-only journal (one line an event, checksum, fsync, torn last line dropped), whole-file writes
-// by rename, and the rule for outputs that already exist. What is not: what the events mean.
+// What is here: the append-only journal (one line an event, checksum, fsync, torn last line dropped). What is not: what
+// the events mean, whole files (files.h).
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,14 +31,5 @@ class Journal {
   std::size_t size_ = 0;  ///< bytes of whole lines
   int descriptor_ = -1;
 };
-
-/// Writes text whole: temporary name beside it, fsync, rename.
-void write_file(const std::filesystem::path& path, std::string_view text);
-/// Reads a whole file; throws InputError when it cannot or when it is larger than `largest` bytes.
-std::string read_file(const std::filesystem::path& path, std::size_t largest = std::size_t{1} << 32);
-/// Refuses an output that exists unless `force` or `resume`; InputError says which flags there are. Also refuses when
-/// its folder is missing or not writable.
-void check_output(const std::filesystem::path& path, bool force, bool resume);
-std::uint32_t crc32(std::string_view text);
 
 }  // namespace perfora::io

@@ -1,7 +1,8 @@
 // What is here: the table of keys: finding, setting by name, unknown names, --set, entries of a file.
 // What is not: how one key takes its value (schema_keys.cpp), printing (schema_print.cpp), TOML syntax
-// (toml_reader.cpp).
+// (toml.cpp).
 #include "io/schema.h"
+#include "io/toml.h"
 
 #include <fmt/format.h>
 
@@ -77,10 +78,26 @@ std::vector<std::string> sections_with(const std::vector<Key>& keys, std::string
                    fmt::format("{}", fmt::join(hints, "; ")));
 }
 
+void check_schema_version(const Value& value, const Origin& origin) {
+  const auto* version = std::get_if<std::int64_t>(&value.data);
+  if (version == nullptr || *version < 1)
+    throw InputError(origin, "found " + describe_value(value),
+                     fmt::format("a whole number from 1 to {} is wanted", schema_version));
+  if (*version > schema_version)
+    throw InputError(origin, fmt::format("the file has keys of version {}", *version),
+                     fmt::format("this program knows the keys up to version {}", schema_version),
+                     "read it with a newer program");
+}
+
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// A renaming of a section has no dot.
+bool is_section(std::string_view name) {
+  return name.find('.') == std::string_view::npos;
 }
 
 bool holds_text(const Value& value) {
@@ -120,18 +137,51 @@ const std::string& Schema::section_help(std::string_view section) const {
   return none;
 }
 
-const Key* Schema::find(std::string_view full_name) const {
+std::string Schema::name_today(std::string_view full_name) const {
+  for (const Renaming& renaming : renamings_) {
+    if (full_name == renaming.old_name) return renaming.name;
+    if (is_section(renaming.old_name) && full_name.starts_with(renaming.old_name + "."))
+      return renaming.name + std::string(full_name.substr(renaming.old_name.size()));
+  }
+  return std::string(full_name);
+}
+
+std::string Schema::first_name(std::string_view full_name) const {
+  for (const Renaming& renaming : renamings_) {
+    if (full_name == renaming.name) return renaming.old_name;
+    if (is_section(renaming.name) && full_name.starts_with(renaming.name + "."))
+      return renaming.old_name + std::string(full_name.substr(renaming.name.size()));
+  }
+  return std::string(full_name);
+}
+
+std::vector<std::string> Schema::notices() const {
+  std::vector<std::string> sentences;
+  for (const Origin& origin : used_old_names_)
+    sentences.push_back(
+        InputError(origin, "is now called " + name_today(origin.key), "the old name is still read").what());
+  return sentences;
+}
+
+void Schema::note_old_name(const Origin& origin) {
+  const auto same = [&](const Origin& other) { return other.file == origin.file && other.key == origin.key; };
+  if (std::none_of(used_old_names_.begin(), used_old_names_.end(), same)) used_old_names_.push_back(origin);
+}
+
+const Key* Schema::find(std::string_view given_name) const {
+  const std::string full_name = name_today(given_name);
   for (const Key& key : keys_) {
     const std::size_t dot = key.section.size();
-    if (full_name.size() == dot + 1 + key.name.size() && full_name[dot] == '.' &&
-        full_name.substr(0, dot) == key.section && full_name.substr(dot + 1) == key.name)
+    if (full_name.size() == dot + 1 + key.name.size() && full_name[dot] == '.' && full_name.starts_with(key.section) &&
+        full_name.ends_with(key.name))
       return &key;
   }
   return nullptr;
 }
 
-void Schema::set(std::string_view full_name, const Value& value, Origin origin) {
-  origin.key = full_name;
+void Schema::set(std::string_view given_name, const Value& value, Origin origin) {
+  const std::string full_name = name_today(given_name);
+  origin.key = given_name;
   if (origin.line == 0) origin.line = value.line;
   const Key* key = find(full_name);
   if (key == nullptr) {
@@ -142,6 +192,7 @@ void Schema::set(std::string_view full_name, const Value& value, Origin origin) 
     refuse_name(given, keys_, origin);
   }
   key->set(value, origin);
+  if (full_name != given_name) note_old_name(origin);
   const auto same = [full_name](const auto& entry) { return entry.first == full_name; };
   const auto known = std::find_if(origins_.begin(), origins_.end(), same);
   if (known != origins_.end())
@@ -181,8 +232,9 @@ void Schema::set_override(std::string_view text) {
 }
 
 Origin Schema::origin(std::string_view full_name) const {
+  const std::string today = name_today(full_name);
   for (const auto& [name, origin] : origins_)
-    if (name == full_name) return origin;
+    if (name == today) return origin;
   return {"default", 0, std::string(full_name)};
 }
 
@@ -193,7 +245,9 @@ void apply_toml(Schema& schema, const std::filesystem::path& path) {
 void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file) {
   for (const Entry& entry : entries) {
     const Origin origin{file, entry.value.line, entry.key};
-    if (entry.key != "title" && entry.key != "description")
+    if (entry.key == "schema_version")
+      check_schema_version(entry.value, origin);
+    else if (entry.key != "title" && entry.key != "description")
       schema.set(entry.key, entry.value, origin);
     else if (!holds_text(entry.value))
       throw InputError(origin, "found " + describe_value(entry.value), "a text in quotes is wanted");

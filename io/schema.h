@@ -121,6 +121,15 @@ class Section {
   std::string name_;
 };
 
+/// An old name of a key or, without a dot, of a section, and what it is called now.
+struct Renaming {
+  std::string old_name, name;
+};
+
+/// Which names a text of keys is written with: those of today, or those the keys had at first (hashes and keys of
+/// journals are made of these, so that a renaming leaves them as they are).
+enum class Names { today, first };
+
 /// The table of keys of one options object. Not copyable: its keys are bound to that object's fields.
 class Schema {
  public:
@@ -133,8 +142,20 @@ class Schema {
   const std::vector<Key>& keys() const { return keys_; }
   std::vector<std::string> section_names() const;
   const std::string& section_help(std::string_view section) const;
-  /// nullptr when there is no such key.
+  /// nullptr when there is no such key. Takes old names, as all functions here do that are given a name.
   const Key* find(std::string_view full_name) const;
+
+  /// Old names that are still taken: of a key ("material.critical_normal_stretch") or of a section ("test"). This is
+  /// the one place where names are resolved: files, --set, variables, arms, headers of journals, stored configurations.
+  void renamed(Renaming renaming) { renamings_.push_back(std::move(renaming)); }
+  /// What a key is called now; the name itself where it was never renamed.
+  std::string name_today(std::string_view full_name) const;
+  /// What a key was called at first.
+  std::string first_name(std::string_view full_name) const;
+  /// One sentence for each old name that a file or --set used.
+  std::vector<std::string> notices() const;
+  /// Remembers that the old name origin.key stands at `origin`.
+  void note_old_name(const Origin& origin);
 
   /// Sets one key. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a
   /// bad value.
@@ -151,17 +172,20 @@ class Schema {
   void take_origins(const Schema& other) { origins_ = other.origins_; }
 
   /// The complete resolved configuration as TOML text (SI numbers, 17 digits, every key).
-  std::string to_toml() const;
+  std::string to_toml(Names names = Names::today) const;
   /// The same without keys at their defaults: it stays as it is when the program learns a new key.
-  std::string changed_toml() const;
+  std::string changed_toml(Names names = Names::today) const;
   /// The printed reference: a Markdown table a section.
   std::string reference() const;
 
  private:
   friend class Section;
+  std::string toml(Names names, bool changed_only) const;
   std::vector<std::pair<std::string, std::string>> sections_;
   std::vector<Key> keys_;
   std::vector<std::pair<std::string, Origin>> origins_;
+  std::vector<Renaming> renamings_;
+  std::vector<Origin> used_old_names_;
 };
 
 /// One "section.key = value" of a TOML file, in file order. Array-of-table and deeper tables are flattened with dots.
@@ -170,22 +194,12 @@ struct Entry {
   Value value;
 };
 
-/// Reads a TOML file. Throws InputError for a missing, unreadable, over-large (> 16 MB) or malformed file.
-std::vector<Entry> read_toml(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in messages.
-std::vector<Entry> parse_toml(std::string_view text, const std::string& name);
-/// The value of a text in TOML syntax; nothing when it is not one (then it is a bare string).
-std::optional<Value> parse_toml_value(std::string_view text);
-/// Sets every entry of the file in the schema; `title` is accepted as a free top-level string.
+/// Version of the keys of all files, which a file may name at its top as `schema_version`: raised when a key changes
+/// its meaning. A file that names none is of this one.
+inline constexpr std::int64_t schema_version = 1;
+/// Sets every entry of the file in the schema. At the top level `title` and `description` are free texts, and a
+/// `schema_version` above the program's is refused (io::InputError).
 void apply_toml(Schema& schema, const std::filesystem::path& path);
 void apply_entries(Schema& schema, const std::vector<Entry>& entries, const std::string& file);
-
-/// Converts "20 mm", "2 MPa", "25 %" or a plain number to SI for the given dimension. Throws InputError (with
-/// `origin`).
-double parse_quantity(const Value& value, Dimension dimension, const Origin& origin);
-/// SI unit of a dimension as printed: "m", "Pa", "N/m", ...; "" for none and ratio.
-std::string_view si_unit(Dimension dimension);
-/// The unit names accepted for a dimension, for messages.
-std::string accepted_units(Dimension dimension);
 
 }  // namespace perfora::io

@@ -6,6 +6,7 @@
 
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/units.h"
 
 namespace perfora::io {
 namespace {
@@ -74,26 +75,28 @@ bool Key::at_default() const {
   return toml_literal(get(), Digits::shortest) == default_text;
 }
 
-std::string Schema::to_toml() const {
-  std::string text;
-  for (const auto& [section, help] : sections_) {
-    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
-    for (const Key& key : keys_)
-      if (key.section == section) text += fmt::format("{} = {}\n", key.name, toml_literal(key.get(), Digits::all_17));
-  }
+std::string Schema::toml(Names names, bool changed_only) const {
+  std::string text, section;
+  for (const auto& [name, help] : sections_)
+    for (const Key& key : keys_) {
+      if (key.section != name || (changed_only && key.at_default())) continue;
+      const std::string written = names == Names::first ? first_name(key.full_name()) : key.full_name();
+      const std::size_t dot = written.rfind('.');
+      if (text.empty() || written.substr(0, dot) != section) {
+        section = written.substr(0, dot);
+        text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+      }
+      text += fmt::format("{} = {}\n", written.substr(dot + 1), toml_literal(key.get(), Digits::all_17));
+    }
   return text;
 }
 
-std::string Schema::changed_toml() const {
-  std::string text;
-  for (const auto& [section, help] : sections_) {
-    std::string lines;
-    for (const Key& key : keys_)
-      if (key.section == section && !key.at_default())
-        lines += fmt::format("{} = {}\n", key.name, toml_literal(key.get(), Digits::all_17));
-    if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section, lines);
-  }
-  return text;
+std::string Schema::to_toml(Names names) const {
+  return toml(names, false);
+}
+
+std::string Schema::changed_toml(Names names) const {
+  return toml(names, true);
 }
 
 std::string Schema::reference() const {

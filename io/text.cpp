@@ -1,5 +1,6 @@
 // What is here: numbers with their unit, values with as many digits as they need. What is not: layout of tables.
 #include "io/text.h"
+#include "io/units.h"
 
 #include <fmt/format.h>
 

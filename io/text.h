@@ -1,6 +1,6 @@
 // What is here: the one module for text of values. For people: a quantity with the prefix that gives 1 to 999 and four
 // significant digits, plain numbers, counts, durations, values of keys. Exact: texts that tell values apart, TOML
-// literals, values in messages. What is not: reading such texts (units.cpp, toml_reader.cpp), layout of tables.
+// literals, values in messages. What is not: reading such texts (units.cpp, toml.cpp), layout of tables.
 #pragma once
 
 #include <concepts>

@@ -9,6 +9,7 @@
 
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/units.h"
 
 namespace perfora::io {
 namespace {

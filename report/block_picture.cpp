@@ -15,7 +15,7 @@ namespace {
 /// From this radius on (pixels) discs are shown one by one over the closed ground.
 constexpr double visible_radius = 2.2;
 /// Then the ground shows around each of them as a rim.
-constexpr double rim_share = 0.9;
+constexpr double rim_fraction = 0.9;
 
 struct Disc {
   double x, y, radius;
@@ -71,25 +71,25 @@ void draw_edges(cairo_t* context, const Box& box, const BlockPicture& block) {
   set_colour(context, palette::ink);
   cairo_save(context);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_SQUARE);
-  const double left = -block.beyond, right = block.h_xx + block.beyond, lean = block.h_xy;
+  const double left = -block.beyond, right = block.h_xx + block.beyond, offset = block.h_xy;
   const double level = block.edges.platens ? bar : thin;
   line(left, 0.0, right, 0.0, level);
-  line(left + lean, block.h_yy, right + lean, block.h_yy, level);
+  line(left + offset, block.h_yy, right + offset, block.h_yy, level);
   if (!block.edges.free) {
     const double upright = block.edges.walls ? bar : thin;
-    line(0.0, 0.0, lean, block.h_yy, upright);
-    line(block.h_xx, 0.0, block.h_xx + lean, block.h_yy, upright);
+    line(0.0, 0.0, offset, block.h_yy, upright);
+    line(block.h_xx, 0.0, block.h_xx + offset, block.h_yy, upright);
   }
   cairo_restore(context);
 }
 
 /// How far discs reach beyond free sides, but no farther than is worth the room.
 double shown_beyond(const BlockPicture& block) {
-  constexpr double most_share = 0.5;
+  constexpr double most_fraction = 0.5;
   double farthest = 0.0;
   for (std::size_t k = 0; k < block.x.size(); ++k)
     farthest = std::max({farthest, block.radius[k] - block.x[k], block.x[k] + block.radius[k] - block.h_xx});
-  return std::min(farthest, most_share * block.h_xx);
+  return std::min(farthest, most_fraction * block.h_xx);
 }
 
 /// Calls paint(context) on the path of every hole and every periodic image next to the cell, the layout drawn in `box`.
@@ -115,7 +115,7 @@ void for_outlines(cairo_t* context, const Box& box, const geometry::PerforationL
 
 void paint_discs(cairo_t* context, const BlockPicture& block, bool ground, double rim) {
   for (std::size_t k = 0; k < block.x.size(); ++k) {
-    const double radius = block.radius[k] * (ground ? 1.0 + block.growth[k] : rim_share);
+    const double radius = block.radius[k] * (ground ? 1.0 + block.growth[k] : rim_fraction);
     set_colour(context, ground ? mix(block.colour[k], palette::ink, rim) : block.colour[k]);
     for_images(block, k, radius, [&](const Disc& disc) {
       cairo_new_sub_path(context);
@@ -170,8 +170,8 @@ BlockPicture picture_of_frame(const results::Frame& frame, const geometry::Packi
   return picture;
 }
 
-Colour size_colour(double share) {
-  return mix(hex(0xf0e2c0), hex(0x2f5d7c), std::clamp(share, 0.0, 1.0));
+Colour size_colour(double fraction) {
+  return mix(hex(0xf0e2c0), hex(0x2f5d7c), std::clamp(fraction, 0.0, 1.0));
 }
 
 BlockPicture picture_of_packing(const geometry::Packing& packing) {
@@ -188,11 +188,11 @@ BlockPicture picture_of_packing(const geometry::Packing& packing) {
   return picture;
 }
 
-Box fit_block(const BlockPicture& picture, const Box& room, double vertical_share) {
+Box fit_block(const BlockPicture& picture, const Box& room, double vertical_fraction) {
   const double scale = std::min(room.width / picture.extent_x(), room.height / picture.h_yy);
   const double width = picture.extent_x() * scale;
   const double height = picture.h_yy * scale;
-  return {room.x + (room.width - width) / 2.0, room.y + (room.height - height) * vertical_share, width, height};
+  return {room.x + (room.width - width) / 2.0, room.y + (room.height - height) * vertical_fraction, width, height};
 }
 
 void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture) {

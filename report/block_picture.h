@@ -39,7 +39,7 @@ BlockPicture picture_of_frame(const results::Frame& frame, const geometry::Packi
                               const results::Edges& edges = {});
 /// Discs by size, light (small) to dark (large).
 BlockPicture picture_of_packing(const geometry::Packing& packing);
-Colour size_colour(double share);  ///< share 0 (smallest) to 1
+Colour size_colour(double fraction);  ///< share 0 (smallest) to 1
 
 /// Colour numbers that are no hue.
 inline constexpr int main_colour = -1;
@@ -51,7 +51,7 @@ std::vector<int> colour_fragments(const results::Frame& frame, std::span<const d
 
 /// The largest box of the block's shape inside `room`, centred in x and at the given share of the free height (0 top, 1
 /// bottom).
-Box fit_block(const BlockPicture& picture, const Box& room, double vertical_share);
+Box fit_block(const BlockPicture& picture, const Box& room, double vertical_fraction);
 /// Draws the discs (periodic images included, cut at the outline) and the edges: thin lines where the block is
 /// periodic, bars for platens and walls, nothing at free sides.
 void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture);

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 
 namespace perfora::report {
 namespace {
@@ -33,8 +33,9 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-Colour mix(const Colour& a, const Colour& b, double share) {
-  return {a.red + (b.red - a.red) * share, a.green + (b.green - a.green) * share, a.blue + (b.blue - a.blue) * share};
+Colour mix(const Colour& a, const Colour& b, double fraction) {
+  return {a.red + (b.red - a.red) * fraction, a.green + (b.green - a.green) * fraction,
+          a.blue + (b.blue - a.blue) * fraction};
 }
 
 const std::vector<Colour>& palette::series() {

@@ -16,7 +16,7 @@ struct Colour {
   double red = 0.0, green = 0.0, blue = 0.0;
 };
 /// `share` of `b` in `a`.
-Colour mix(const Colour& a, const Colour& b, double share);
+Colour mix(const Colour& a, const Colour& b, double fraction);
 constexpr Colour hex(unsigned rgb) {
   return {static_cast<double>((rgb >> 16) & 255u) / 255.0, static_cast<double>((rgb >> 8) & 255u) / 255.0,
           static_cast<double>(rgb & 255u) / 255.0};

@@ -13,7 +13,7 @@ namespace {
 constexpr double tick_text_size = 16.0;
 constexpr double label_size = 18.0;
 
-double share(const Axis& axis, double value) {
+double fraction(const Axis& axis, double value) {
   if (axis.logarithmic)
     return (std::log10(std::max(value, axis.low * 1e-6)) - std::log10(axis.low)) /
            (std::log10(axis.high) - std::log10(axis.low));
@@ -82,10 +82,10 @@ Chart::Chart(Canvas& canvas, const Box& box, const Axis& x, const Axis& y) : can
 }
 
 double Chart::px(double x) const {
-  return box_.x + box_.width * share(x_, x);
+  return box_.x + box_.width * fraction(x_, x);
 }
 double Chart::py(double y) const {
-  return box_.bottom() - box_.height * share(y_, y);
+  return box_.bottom() - box_.height * fraction(y_, y);
 }
 
 void Chart::clip() {

@@ -18,8 +18,8 @@ double value_at(const results::Curve& curve, double strain) {
   if (after == curve.strain.end()) return curve.stress.back();
   const auto k = static_cast<std::size_t>(after - curve.strain.begin());
   const double width = curve.strain[k] - curve.strain[k - 1];
-  const double share = width > 0.0 ? (strain - curve.strain[k - 1]) / width : 1.0;
-  return curve.stress[k - 1] + share * (curve.stress[k] - curve.stress[k - 1]);
+  const double fraction = width > 0.0 ? (strain - curve.strain[k - 1]) / width : 1.0;
+  return curve.stress[k - 1] + fraction * (curve.stress[k] - curve.stress[k - 1]);
 }
 
 }  // namespace

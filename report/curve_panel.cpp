@@ -168,13 +168,13 @@ void annotate_cut(Canvas& canvas, const Chart& chart, const Extent& extent) {
 }  // namespace
 
 Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>& series, const CurveMarks& marks,
-                       double upper_share) {
+                       double upper_fraction) {
   const Extent extent = measure(series, marks);
   const double top = extent.early > 0.0 ? std::min(extent.highest, cut_factor * extent.early) : extent.highest;
   const double level = std::max({marks.plateau_stress.value_or(0.0) * mega, marks.target_stress.value_or(0.0) * mega});
   const bool magnified = marks.plateau_stress && level > 0.0 && level < magnify_below * extent.early;
   constexpr double gap = 44.0;
-  const double upper_height = magnified ? upper_share * (box.height - gap) : box.height;
+  const double upper_height = magnified ? upper_fraction * (box.height - gap) : box.height;
   const Axis strain{0.0, extent.strain > 0.0 ? extent.strain : 1.0, "engineering strain (%)"};
 
   Chart upper(canvas, {box.x, box.y, box.width, upper_height}, strain,

@@ -30,6 +30,6 @@ struct CurveMarks {
 /// Strain in % and stress in MPa in `box`, with a second, magnified panel of the plateau below when the plateau is
 /// below a quarter of the peak. Returns the upper panel, for further marks.
 Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>& series, const CurveMarks& marks,
-                       double upper_share = 0.6);
+                       double upper_fraction = 0.6);
 
 }  // namespace perfora::report

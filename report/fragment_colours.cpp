@@ -14,7 +14,7 @@ namespace {
 
 /// Fragments of fewer discs share one grey: hundreds of crumbs in loud colours hide the pieces that carry load.
 constexpr int dust = 6;
-/// Discs nearer than this share of the sum of their radii count as neighbours in the picture.
+/// Discs nearer than this fraction of the sum of their radii count as neighbours in the picture.
 constexpr double neighbour_reach = 1.3;
 
 /// Pairs (a < b) of fragments with neighbouring discs, each once. No periodic images: only the picture counts.

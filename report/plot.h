@@ -1,6 +1,5 @@
-// What is here: pictures of one run, one packing, material tests and one elastic answer, 1600 pixels wide (PNG; SVG and
-// PDF by extension).
-// What is not: studies (plot_study.h).
+// What is here: pictures of one run, one packing, material tests and one elastic response, 1600 pixels wide (PNG; SVG
+// and PDF by extension). What is not: studies (plot_study.h).
 #pragma once
 
 #include <filesystem>
@@ -77,8 +76,8 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
 void plot_reachable(const results::CalibrationRecord& record, const std::filesystem::path& out,
                     const PlotOptions& options = {});
 
-/// Elastic answer -> picture: the block coloured by how near each disc is to its first yield when the block yields
-/// first (compression along y at fixed width), the first bonds marked, the moduli and a colour bar with the share of
+/// Elastic response -> picture: the block coloured by how near each disc is to its first yield when the block yields
+/// first (compression along y at fixed width), the first bonds marked, the moduli and a colour bar with the fraction of
 /// discs.
 void plot_elastic(const std::filesystem::path& elastic_file, const std::filesystem::path& out,
                   const PlotOptions& options = {});

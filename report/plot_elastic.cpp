@@ -1,4 +1,4 @@
-// What is here: the picture of one elastic answer: where a block yields first. What is not: how it is found (solver).
+// What is here: the picture of one elastic response: where a block yields first. What is not: how it is found (solver).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,10 +84,10 @@ std::vector<Fact> modulus_facts(const results::ElasticResult& elastic) {
   stress("shear modulus", "shear_modulus");
   const auto xy = number("poisson_xy"), yx = number("poisson_yx");
   if (xy && yx) facts.emplace_back("contraction xy, yx", io::quantities({*xy, *yx}, io::Dimension::none, ", "));
-  if (const auto share = number("affine_share"))
-    facts.emplace_back("of the affine (Voigt) bound", io::quantity(*share, io::Dimension::ratio));
-  if (const auto share = number("anisotropy"))
-    facts.emplace_back("anisotropy", io::quantity(*share, io::Dimension::ratio));
+  if (const auto fraction = number("affine_share"))
+    facts.emplace_back("of the affine (Voigt) bound", io::quantity(*fraction, io::Dimension::ratio));
+  if (const auto fraction = number("anisotropy"))
+    facts.emplace_back("anisotropy", io::quantity(*fraction, io::Dimension::ratio));
   const auto bonds = number("bonds");
   if (bonds) facts.emplace_back("discs, bonds", io::count(elastic.clipped.size()) + ", " + io::count(*bonds));
   return facts;
@@ -105,7 +105,7 @@ double draw_facts(Canvas& canvas, const std::string& title, const std::vector<Fa
   return y;
 }
 
-/// Colour bar with the share of discs of each colour above it.
+/// Colour bar with the fraction of discs of each colour above it.
 void draw_colour_bar(Canvas& canvas, const std::vector<double>& nearness, const Box& box) {
   constexpr double bar_height = 16.0;
   std::vector<double> count(nearness_bins, 0.0);
@@ -155,7 +155,7 @@ void draw_title(Canvas& canvas, const results::ElasticResult& elastic, const Plo
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, style), style);
   canvas.text(
       page_margin, 88.0,
-      fmt::format("{}, periodic; elastic answer to compression along y at fixed width",
+      fmt::format("{}, periodic; elastic response to compression along y at fixed width",
                   io::quantities({elastic.clipped.width, elastic.clipped.height}, io::Dimension::length, " x ")),
       {.size = 17.0, .colour = palette::soft_ink});
 }

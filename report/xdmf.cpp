@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "io/files.h"
 #include "io/hdf5.h"
-#include "io/journal.h"
 #include "results/frame.h"
 #include "results/run_file.h"
 

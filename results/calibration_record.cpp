@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "results/campaign_folder.h"
 #include "results/statistic.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <map>
 
-#include "io/journal.h"
+#include "io/files.h"
 
 namespace perfora::results {
 
@@ -22,12 +22,16 @@ std::vector<json> journal_events(const fs::path& folder) {
   return events;
 }
 
-std::string campaign_kind(const fs::path& folder) {
+std::string kind_in_journal(const fs::path& folder) {
   std::ifstream journal(folder / "journal.jsonl", std::ios::binary);
   std::string line;
   std::getline(journal, line);
   const json first = json::parse(line.substr(std::min(line.size(), line.find('{'))), nullptr, false);
-  if (first.is_object()) return first.value("event", "");
+  return first.is_object() ? first.value("event", "") : std::string();
+}
+
+std::string campaign_kind(const fs::path& folder) {
+  if (std::string kind = kind_in_journal(folder); !kind.empty()) return kind;
   static const std::map<std::string, std::string> kinds = {{"perfora.optimize/1", "study"},
                                                            {"perfora.sweep/1", "sweep"},
                                                            {"perfora.ensemble/1", "ensemble"},

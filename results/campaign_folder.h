@@ -13,6 +13,9 @@ namespace perfora::results {
 /// empty for a folder of none of them.
 std::string campaign_kind(const std::filesystem::path& folder);
 
+/// The same by the first event of the journal alone; empty without one, or where it cannot be read.
+std::string kind_in_journal(const std::filesystem::path& folder);
+
 /// Name of the file that the work came from, without its ending, as the journal has it; otherwise that of the folder.
 std::string campaign_title(const std::filesystem::path& folder);
 

@@ -10,10 +10,12 @@
 #include <map>
 
 #include "io/error.h"
+#include "io/files.h"
 #include "io/hdf5.h"
 #include "io/journal.h"
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/toml.h"
 
 namespace perfora::results {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/schema.h"
+#include "io/units.h"
 
 namespace perfora::results {
 namespace {
@@ -64,7 +65,7 @@ constexpr Measure table[] = {
      "number of peaks behind the first that stand 5 % of it above their valleys"},
     {"energy_absorbed", &Summary::energy_absorbed, energy_density, curve, "energy absorbed to window end",
      "external work per area of the cell up to the end of the plateau window", 7},
-    {"cundall_share", &Summary::cundall_share, ratio, curve, "share of Cundall damping in the work",
+    {"cundall_share", &Summary::cundall_fraction, ratio, curve, "share of Cundall damping in the work",
      "of the external work up to the end of the plateau window, or of the run where it ends before", 8},
     {"broken_in_window", &Summary::broken_in_window, count, curve, "bonds broken in the window",
      "bonds that break within the plateau window"},

@@ -16,8 +16,8 @@ namespace {
 constexpr double nan = not_reached;
 constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau at 1.3 x plateau stress
 constexpr double smoothing_width = 0.005;     // docs/user/theory.md: the 0.5 %-smoothed stress
-constexpr double rising_share = 0.9;          // "only rises": never falls below this share of an earlier stress
-constexpr double recovery_share = 0.5;        // of the first peak
+constexpr double rising_fraction = 0.9;       // "only rises": never falls below this share of an earlier stress
+constexpr double recovery_fraction = 0.5;     // of the first peak
 constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
 
 /// Value of y at x by linear interpolation; x inside the range.
@@ -26,8 +26,8 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   if (upper == x.begin()) return y.front();
   if (upper == x.end()) return y.back();
   const auto k = static_cast<std::size_t>(upper - x.begin());
-  const double share = (at - x[k - 1]) / (x[k] - x[k - 1]);
-  return y[k - 1] + share * (y[k] - y[k - 1]);
+  const double fraction = (at - x[k - 1]) / (x[k] - x[k - 1]);
+  return y[k - 1] + fraction * (y[k] - y[k - 1]);
 }
 
 /// The curve between two strains: end points interpolated.
@@ -109,7 +109,7 @@ double only_rising_from(const std::vector<double>& strain, const std::vector<dou
   double later = std::numeric_limits<double>::infinity();
   for (std::size_t k = stress.size(); k-- > 0;) {
     later = std::min(later, stress[k]);
-    if (stress[k] > 0.0 && later < rising_share * stress[k])
+    if (stress[k] > 0.0 && later < rising_fraction * stress[k])
       return strain.back() - strain[k + 1] > smoothing_width ? strain[k + 1] : nan;
   }
   return nan;
@@ -211,7 +211,7 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   if (strain.size() < 2) return;
   const double work_end = std::min(plateau_end, strain.back());
   const double work = interpolate(strain, history.external_work, work_end);
-  summary.cundall_share = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
+  summary.cundall_fraction = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
 
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     double smallest = nan;
@@ -226,7 +226,7 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     // Smoothing carries the first peak half its width on.
     const double behind = summary.first_peak_strain + 0.5 * smoothing_width;
-    summary.recovery_strain = recovery_strain(strain, smooth, behind, recovery_share * summary.first_peak_stress);
+    summary.recovery_strain = recovery_strain(strain, smooth, behind, recovery_fraction * summary.first_peak_stress);
     summary.peaks = peaks_behind(strain, smooth, behind, peak_prominence * summary.first_peak_stress);
     summary.intermediate_peaks = static_cast<double>(summary.peaks.size());
   }

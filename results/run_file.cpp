@@ -34,7 +34,7 @@ std::vector<FrameInfo> read_frame_list(const io::Hdf5Reader& file) {
 Bonds read_bonds(const io::Hdf5Reader& file, std::int32_t discs) {
   Bonds bonds;
   if (!file.has("/bonds")) return bonds;
-  bonds.rest_length = finite_doubles(file, "/bonds/rest_length");
+  bonds.reference_length = finite_doubles(file, "/bonds/rest_length");
   bonds.strength_factor = finite_doubles(file, "/bonds/strength_factor");
   bonds.pairs = file.int32s("/bonds/pairs");
   require_size(file, "/bonds/strength_factor", bonds.strength_factor, bonds.size());
@@ -102,7 +102,7 @@ void write_run(const std::filesystem::path& path, const RunResult& run,
     file.copy_from(frame_files[k], "/frame", fmt::format("/frames/{:05d}", k));
   write_events(file, "/events", run.events);
   file.dataset("/bonds/pairs", run.bonds.pairs, 2);
-  file.dataset("/bonds/rest_length", run.bonds.rest_length, 0, "m");
+  file.dataset("/bonds/rest_length", run.bonds.reference_length, 0, "m");
   file.dataset("/bonds/strength_factor", run.bonds.strength_factor);
   if (periodic != nullptr) geometry::write_packing(file, "/packing", *periodic);
   geometry::write_packing(file, "/clipped", run.clipped);

@@ -19,10 +19,10 @@ namespace perfora::results {
 
 /// All bonds ever made; m bonds.
 struct Bonds {
-  std::vector<std::int32_t> pairs;  ///< (m,2), i < j
-  std::vector<double> rest_length;  ///< m
+  std::vector<std::int32_t> pairs;       ///< (m,2), i < j
+  std::vector<double> reference_length;  ///< m
   std::vector<double> strength_factor;
-  std::size_t size() const { return rest_length.size(); }
+  std::size_t size() const { return reference_length.size(); }
 };
 
 /// What stands at the edges of the block.

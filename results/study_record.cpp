@@ -8,7 +8,7 @@
 #include "geometry/hole_row.h"
 #include "io/csv.h"
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "results/campaign_folder.h"
 #include "results/json.h"
 

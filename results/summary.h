@@ -49,7 +49,7 @@ struct Summary {
   double intermediate_peaks = not_reached;  ///< number of `peaks`
   /// Behind the first peak, at least 5 % of it above the valleys around them (topographic prominence).
   std::vector<CurvePeak> peaks;
-  double energy_absorbed = not_reached, cundall_share = not_reached;
+  double energy_absorbed = not_reached, cundall_fraction = not_reached;
   double broken_in_window = not_reached;
   std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
   std::int64_t fragments = 0;

@@ -16,7 +16,7 @@ struct Label {
   io::Dimension dimension;
 };
 
-/// Of perfora.pack/1, and the head of evaluations and elastic answers.
+/// Of perfora.pack/1, and the head of evaluations and elastic responses.
 std::span<const Label> packing_labels();
 /// Of perfora.evaluate/1: the curve, the broken bonds, the run.
 std::span<const Label> curve_labels();

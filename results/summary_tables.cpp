@@ -1,4 +1,4 @@
-// What is here: the tables of ensembles, sweeps, calibrations and elastic answers. What is not: reading JSON
+// What is here: the tables of ensembles, sweeps, calibrations and elastic responses. What is not: reading JSON
 // (summary_parts.cpp).
 #include "results/summary_tables.h"
 

@@ -79,7 +79,7 @@ std::string evaluate_text(const json& object) {
 
 std::string elastic_text(const json& object) {
   std::string text = lines_text("Packing", object, packing_labels()) +
-                     lines_text("Elastic answer", object, elastic_labels()) +
+                     lines_text("Elastic response", object, elastic_labels()) +
                      stiffness_table(list_in(object, "stiffness")) +
                      lines_text("First yield, compression along y at fixed width", object, first_yield_labels());
   const Pair place = pair_in(object, "first_yield_place");

@@ -10,7 +10,7 @@
 
 #include "io/csv.h"
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "results/campaign_folder.h"
 #include "results/formats.h"
 #include "results/statistic.h"

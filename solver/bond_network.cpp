@@ -88,8 +88,8 @@ void find_bonds(const geometry::Packing& packing, const geometry::PerforationLay
     const auto at = static_cast<std::size_t>(i);
     for (const std::int32_t j : row) {
       const Branch branch = minimum_image(packing, i, j);
-      const double touch = packing.radius[at] + packing.radius[static_cast<std::size_t>(j)];
-      const double limit = std::max(r_h, touch);
+      const double contact_distance = packing.radius[at] + packing.radius[static_cast<std::size_t>(j)];
+      const double limit = std::max(r_h, contact_distance);
       if (branch.x * branch.x + branch.y * branch.y > limit * limit) continue;
       if (perforations.separates(packing.x[at], packing.y[at], branch)) continue;
       found(i, j, branch);
@@ -121,7 +121,7 @@ BondNetwork make_bond_network(const geometry::Packing& clipped, const geometry::
                  strength = weibull_factor(noise_seed, network.size(), noise.weibull_modulus);
                network.i.push_back(i);
                network.j.push_back(j);
-               network.rest_length.push_back(length);
+               network.reference_length.push_back(length);
                network.direction_x.push_back(branch.x / length);
                network.direction_y.push_back(branch.y / length);
                network.strength.push_back(strength);

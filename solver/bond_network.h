@@ -18,7 +18,7 @@ enum class BondState : std::uint8_t { intact = 0, broken = 1, compacted = 2 };
 /// Bonds as equally long arrays, i < j, sorted by (i, j). Files, events, analysis and checkpoints see only this.
 struct BondNetwork {
   std::vector<std::int32_t> i, j;
-  std::vector<double> rest_length;               ///< l0, m
+  std::vector<double> reference_length;          ///< l0, m
   std::vector<double> direction_x, direction_y;  ///< e0 from i to j in the undeformed cell
   std::vector<double> strength;                  ///< factor on both thresholds
   std::vector<double> damage;                    ///< D

@@ -1,5 +1,5 @@
 // What is here: a periodic cell grid over reduced coordinates that visits all pairs of near points. What is not: skins,
-// histories (near_pairs.h).
+// histories (neighbour_list.h).
 #pragma once
 
 #include <algorithm>

@@ -96,7 +96,7 @@ template <class Discs, class Real, class Whole>
 void each_field(Discs& d, const Real& real, const Whole& whole) {
   whole("sx", d.sx);
   whole("sy", d.sy);
-  whole("turn", d.turn);
+  whole("turn", d.half_angle);
   real("vx", d.vx);
   real("vy", d.vy);
   real("omega", d.omega);
@@ -125,12 +125,12 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
       });
   file.dataset("/bonds/damage", s.damage);
   file.dataset("/bonds/state", s.bond_state);
-  const NearPairs::Snapshot& near = s.near_pairs;
+  const NeighbourList::Snapshot& near = s.neighbour_list;
   file.dataset("/near/start", near.start);
   file.dataset("/near/neighbour", near.neighbour);
   file.dataset("/near/bonded", near.bonded);
   file.dataset("/near/active", near.active);
-  file.dataset("/near/touch", near.touch);
+  file.dataset("/near/touch", near.contact_distance);
   file.dataset("/near/shear", near.shear);
   file.dataset("/near/viscous_force", near.viscous_force);
   file.dataset("/near/reference_x", near.reference_x);
@@ -140,10 +140,10 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
   file.attribute("/near", "rebuilds", near.rebuilds);
   results::write_events(file, "/events", s.events);
   if (!simulation.walls().empty()) {
-    file.dataset("/walls/touch", s.walls.touch);
+    file.dataset("/walls/touch", s.walls.contact_distance);
     file.dataset("/walls/shear", s.walls.shear);
     file.dataset("/walls/viscous_force", s.walls.viscous_force);
-    file.dataset("/walls/bedded", s.walls.bedded);
+    file.dataset("/walls/bedded", s.walls.has_face_stiffness);
     file.dataset("/walls/row", s.walls.row);
   }
   file.group("/history");
@@ -174,12 +174,12 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   if (s.discs.radius != simulation.discs().radius || s.discs.mass != simulation.discs().mass)
     throw io::InputError({path.string(), 0, ""}, "the checkpoint holds other discs",
                          "a checkpoint goes with the packing it was written for", "start the run anew with --force");
-  NearPairs::Snapshot& near = s.near_pairs;
+  NeighbourList::Snapshot& near = s.neighbour_list;
   near.start = file.int32s("/near/start");
   near.neighbour = file.int32s("/near/neighbour");
   near.bonded = file.int32s("/near/bonded");
   near.active = file.int32s("/near/active");
-  near.touch = file.doubles("/near/touch");
+  near.contact_distance = file.doubles("/near/touch");
   near.shear = file.doubles("/near/shear");
   near.viscous_force = file.doubles("/near/viscous_force");
   near.reference_x = file.uint64s("/near/reference_x");
@@ -189,10 +189,10 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   near.rebuilds = file.attribute_int("/near", "rebuilds");
   s.events = results::read_events(file, "/events", static_cast<std::int32_t>(s.discs.sx.size()));
   if (!simulation.walls().empty()) {
-    s.walls.touch = file.doubles("/walls/touch");
+    s.walls.contact_distance = file.doubles("/walls/touch");
     s.walls.shear = file.doubles("/walls/shear");
     s.walls.viscous_force = file.doubles("/walls/viscous_force");
-    s.walls.bedded = file.uint8s("/walls/bedded");
+    s.walls.has_face_stiffness = file.uint8s("/walls/bedded");
     s.walls.row = file.doubles("/walls/row");
   }
   RunProgress progress;

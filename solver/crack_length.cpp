@@ -34,7 +34,7 @@ double projected_crack_length(const std::vector<results::BreakEvent>& events, do
       dy -= height * std::nearbyint(dy / height);
       if (dx * dx + dy * dy <= link * link) clusters.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
     });
-  // Each cluster's share of the side, in pieces of about `link` that divide it.
+  // Each cluster's fraction of the side, in pieces of about `link` that divide it.
   const double side = direction == 0 ? width : height;
   const double pieces = std::max(1.0, std::floor(side / link)), piece = side / pieces;
   std::vector<std::set<int>> occupied(n);

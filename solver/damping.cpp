@@ -5,7 +5,7 @@ namespace perfora::solver {
 
 CundallDamping::CundallDamping(const DynamicsOptions& dynamics, const BondNetwork& network, std::size_t discs)
     : coefficients_(discs, dynamics.cundall_damping),
-      rotation_share_(dynamics.cundall_scope == CundallScope::translation ? 0.0 : 1.0) {
+      rotation_ratio_(dynamics.cundall_scope == CundallScope::translation ? 0.0 : 1.0) {
   if (dynamics.cundall_scope != CundallScope::bonded) return;
   bonds_.assign(discs, 0);
   for (std::size_t b = 0; b < network.i.size(); ++b) {

@@ -18,7 +18,7 @@ class CundallDamping {
 
   const double* coefficients() const { return coefficients_.data(); }  ///< c of forces, by disc
   double of_force(std::size_t disc) const { return coefficients_[disc]; }
-  double rotation_share() const { return rotation_share_; }  ///< c of torques over c of forces
+  double rotation_ratio() const { return rotation_ratio_; }  ///< c of torques over c of forces
   /// The bond between these discs is gone.
   void bond_broke(std::int32_t i, std::int32_t j);
 
@@ -26,7 +26,7 @@ class CundallDamping {
   void free_when_alone(std::int32_t disc);
   std::vector<double> coefficients_;
   std::vector<std::int32_t> bonds_;  ///< intact ones, by disc; empty where they do not matter
-  double rotation_share_ = 1.0;
+  double rotation_ratio_ = 1.0;
 };
 
 }  // namespace perfora::solver

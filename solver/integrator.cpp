@@ -49,9 +49,9 @@ PERFORA_INLINE Longs nearest(Reals v, Reals& rounded) {
   return Longs(pushed) - Longs(Reals{} + magic);
 }
 
-/// A share of the period as 64-bit fixed point, in two halves.
-PERFORA_INLINE Fixed fixed_share(Reals share) {
-  const Reals coarse = share * 0x1p32;
+/// A fraction of the period as 64-bit fixed point, in two halves.
+PERFORA_INLINE Fixed fixed_fraction(Reals fraction) {
+  const Reals coarse = fraction * 0x1p32;
   Reals whole, ignored;
   const Longs high = nearest(coarse, whole);
   const Longs low = nearest((coarse - whole) * 0x1p32, ignored);
@@ -60,8 +60,8 @@ PERFORA_INLINE Fixed fixed_share(Reals share) {
 
 /// Cosine and sine of 2 pi turn/2^64 to single precision: Taylor's series within an eighth of a turn, then the
 /// quadrant.
-PERFORA_INLINE void float_cosine_sine(Fixed turn, Floats& c, Floats& s) {
-  const Unsigned t = __builtin_convertvector(turn >> 32, Unsigned);
+PERFORA_INLINE void float_cosine_sine(Fixed half_angle, Floats& c, Floats& s) {
+  const Unsigned t = __builtin_convertvector(half_angle >> 32, Unsigned);
   const Unsigned quadrant = (t + (1u << 29)) >> 30;
   constexpr auto radians = static_cast<float>(2.0 * std::numbers::pi * 0x1p-32);
   const Floats a = __builtin_convertvector(Ints(t - (quadrant << 30)), Floats) * radians;
@@ -105,15 +105,15 @@ PERFORA_INLINE void store_records(Record* to, Ints x, Ints y, Ints ci, Ints si, 
 struct Arrays {
   double *vx, *vy, *omega;
   const double *fx, *fy, *torque, *inverse_mass, *inverse_inertia;
-  std::uint64_t *sx, *sy, *turn;
-  const std::uint64_t *sx_before, *sy_before, *turn_before;
+  std::uint64_t *sx, *sy, *half_angle;
+  const std::uint64_t *sx_before, *sy_before, *half_angle_before;
   DiscRecord* record;
   DiscMotion* motion;
   const double* radius;
   int position_shift;
   double dt;
   const double* damping;
-  double rotation_share;
+  double rotation_ratio;
   CellMatrix mid;
 };
 
@@ -132,10 +132,10 @@ PERFORA_INLINE void move_eight(const Arrays& task, std::int32_t d, int count, La
   const Reals per_mass = load<Reals>(task.inverse_mass + d, count),
               per_inertia = load<Reals>(task.inverse_inertia + d, count), c = load<Reals>(task.damping + d, count);
   const Fixed old_x = load<Fixed>(task.sx_before + d, count), old_y = load<Fixed>(task.sy_before + d, count),
-              old_turn = load<Fixed>(task.turn_before + d, count);
+              old_half_angle = load<Fixed>(task.half_angle_before + d, count);
 
   const Reals gx = damped_all(fx, vx, c), gy = damped_all(fy, vy, c),
-              gw = damped_all(torque, w, task.rotation_share * c);
+              gw = damped_all(torque, w, task.rotation_ratio * c);
   const Reals nvx = vx + dt * gx * per_mass, nvy = vy + dt * gy * per_mass, nw = w + dt * gw * per_inertia;
   sums.cundall -= 0.5 * dt * ((gx - fx) * (vx + nvx) + (gy - fy) * (vy + nvy) + (gw - torque) * (w + nw));
   const Reals square = nvx * nvx + nvy * nvy;
@@ -143,17 +143,17 @@ PERFORA_INLINE void move_eight(const Arrays& task, std::int32_t d, int count, La
 
   const Reals step_y = nvy * (dt / task.mid.yy);
   const Reals step_x = (nvx * dt - task.mid.xy * step_y) * (1.0 / task.mid.xx);
-  const Fixed x = old_x + fixed_share(step_x), y = old_y + fixed_share(step_y),
-              turn = old_turn + fixed_share(nw * (0.5 * dt / (2.0 * std::numbers::pi)));
+  const Fixed x = old_x + fixed_fraction(step_x), y = old_y + fixed_fraction(step_y),
+              half_angle = old_half_angle + fixed_fraction(nw * (0.5 * dt / (2.0 * std::numbers::pi)));
   store(task.vx + d, nvx, count);
   store(task.vy + d, nvy, count);
   store(task.omega + d, nw, count);
   store(task.sx + d, x, count);
   store(task.sy + d, y, count);
-  store(task.turn + d, turn, count);
+  store(task.half_angle + d, half_angle, count);
 
   Floats cosine, sine;
-  float_cosine_sine(turn, cosine, sine);
+  float_cosine_sine(half_angle, cosine, sine);
   const int shift = 32 - task.position_shift;
   store_records(task.record + d, __builtin_convertvector(x >> shift, Ints), __builtin_convertvector(y >> shift, Ints),
                 Ints(cosine), Ints(sine), count);
@@ -190,17 +190,17 @@ KickSums kick_and_drift(const KickAndDrift& task, std::int32_t begin, std::int32
                       task.inverse_inertia,
                       d.sx.data(),
                       d.sy.data(),
-                      d.turn.data(),
+                      d.half_angle.data(),
                       d.sx_before.data(),
                       d.sy_before.data(),
-                      d.turn_before.data(),
+                      d.half_angle_before.data(),
                       d.record.data(),
                       d.motion.data(),
                       d.radius.data(),
                       d.position_shift,
                       task.dt,
                       task.damping,
-                      task.rotation_share,
+                      task.rotation_ratio,
                       task.mid};
   return move_discs(arrays, begin, end);
 }
@@ -208,7 +208,7 @@ KickSums kick_and_drift(const KickAndDrift& task, std::int32_t begin, std::int32
 void DiscState::refresh_record(std::size_t disc) {
   Floats c, s;
   Fixed t{};
-  t[0] = turn[disc];
+  t[0] = half_angle[disc];
   float_cosine_sine(t, c, s);
   const int shift = 32 - position_shift;
   record[disc] = {static_cast<std::int32_t>(static_cast<std::uint32_t>(sx[disc] >> shift)),

@@ -23,7 +23,7 @@ struct KickAndDrift {
   const double* inverse_inertia;
   double dt;              ///< s
   const double* damping;  ///< c of forces, by disc
-  double rotation_share;  ///< c of torques over c of forces
+  double rotation_ratio;  ///< c of torques over c of forces
   CellMatrix mid;         ///< H in the middle of the drift
 };
 

@@ -23,7 +23,7 @@ BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {
   BondLaw law;
   law.normal_stiffness = material.normal_stiffness;
   law.tangential_stiffness = material.tangential_stiffness;
-  law.inverse_critical_normal = 1.0 / (material.critical_normal_stretch * factor);
+  law.inverse_critical_normal = 1.0 / (material.critical_normal_displacement * factor);
   law.inverse_critical_shear = 1.0 / (material.critical_shear_displacement * factor);
   law.twice_alpha = static_cast<int>(std::lround(2.0 * material.yield_exponent));
   law.rupture_delay = material.rupture_delay;

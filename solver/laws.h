@@ -54,8 +54,8 @@ inline double zeta_of_damage(const BondLaw& law, double damage) {
 
 /// Inverse of zeta_of_damage on [1, zeta_max], zeta_max > 1.
 inline double damage_of_zeta(const BondLaw& law, double zeta) {
-  const double share = (zeta - 1.0) / (law.rupture_delay - 1.0);
-  return law.damage_form == DamageForm::linear_damage ? share : law.rupture_delay * share / zeta;
+  const double fraction = (zeta - 1.0) / (law.rupture_delay - 1.0);
+  return law.damage_form == DamageForm::linear_damage ? fraction : law.rupture_delay * fraction / zeta;
 }
 
 /// Damage after the displacements reached (delta_n, delta_t): unchanged inside the yield surface, 1 beyond

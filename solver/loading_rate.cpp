@@ -17,12 +17,12 @@ constexpr double peak_margin = 0.7;
 /// for: a crack takes its time through a wall however high the block is.
 constexpr double hole_crossings = 4.0;
 /// Impact stress of the block over the stress that the rubble carries.
-constexpr double stress_share = 0.2;
+constexpr double stress_ratio = 0.2;
 /// Power that goes into motion, over that of loading at rest against the first peak's stress, at which the rate is
 /// halved. Elastic loading makes 1e-4, collapsing rubble 1e-2, the avalanche of a first peak 1 to 10.
-constexpr double motion_share = 0.1;
-constexpr double slowest_share = 0.125;  // of the rate at rest: an avalanche need not be waited for to its last disc
-constexpr double fastest_share = 16.0;   // times the rubble's: there, too, a wave crosses the block within a row or two
+constexpr double motion_ratio = 0.1;
+constexpr double slowest_ratio = 0.125;  // of the rate at rest: an avalanche need not be waited for to its last disc
+constexpr double fastest_ratio = 16.0;   // times the rubble's: there, too, a wave crosses the block within a row or two
 constexpr std::int64_t adaptive_segments = 8;  // a row: a power of two, so that rows sit at exact strains
 constexpr double stress_memory = 5e-3;         // strain that the running mean of the stress looks back on
 
@@ -30,8 +30,8 @@ constexpr double stress_memory = 5e-3;         // strain that the running mean o
 /// to 60 % took 1.24 (quick.toml), 1.29 to 1.36 (2 x 2 holes at full resolution) and 1.33 times (Table 1) as many.
 constexpr double avalanche_factor = 1.3;
 
-/// Stress of rubble over the first peak at this share of the cell filled with discs: an exponential through what 2 x 2
-/// cells carry at 45 to 60 % strain.
+/// Stress of rubble over the first peak at this fraction of the cell filled with discs: an exponential through what 2 x
+/// 2 cells carry at 45 to 60 % strain.
 double rubble_stress(double filled) {
   constexpr double steepness = 18.0, filled_at_peak = 0.77;
   return std::exp(steepness * (filled - filled_at_peak));
@@ -44,10 +44,10 @@ double allowed_rate(const LoadingPlan& plan, const SegmentMeasures& measures) {
   double at_rest = plan.start_rate;
   if (measures.peak_passed)
     at_rest = std::min(plan.fastest_rate,
-                       std::max(plan.rubble_rate, stress_share * measures.mean_stress / plan.stress_per_rate));
+                       std::max(plan.rubble_rate, stress_ratio * measures.mean_stress / plan.stress_per_rate));
   const double loading_power = at_rest * plan.area * std::max(plan.peak_stress, measures.mean_stress);
-  const double avalanche = std::max(0.0, measures.motion_power) / (motion_share * loading_power);
-  return at_rest * std::max(slowest_share, 1.0 / (1.0 + avalanche));
+  const double avalanche = std::max(0.0, measures.motion_power) / (motion_ratio * loading_power);
+  return at_rest * std::max(slowest_ratio, 1.0 / (1.0 + avalanche));
 }
 
 void finish_segment(const LoadingPlan& plan, LoadingState& state) {
@@ -93,7 +93,7 @@ LoadingPlan adaptive_loading(const LoadingEstimate& estimate, const LoadingOptio
   plan.segment_strain = row_strain / static_cast<double>(adaptive_segments);
   plan.time_step = longest_step;
   plan.rubble_rate = estimate.rate;
-  plan.fastest_rate = fastest_share * estimate.rate;
+  plan.fastest_rate = fastest_ratio * estimate.rate;
   plan.start_rate = peak_margin * estimate.rate;
   if (block.largest_hole > 0.0)
     plan.start_rate = std::min(plan.start_rate, estimate.peak_strain * estimate.wave_speed /

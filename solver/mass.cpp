@@ -31,7 +31,7 @@ Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, co
     k.rotation[d] = contacts_to_come * material.tangential_stiffness * clipped.radius[d] * clipped.radius[d];
   for (std::int64_t b = 0; b < network.size(); ++b) {
     const auto id = static_cast<std::size_t>(b);
-    const double l = network.rest_length[id];
+    const double l = network.reference_length[id];
     for (const std::int32_t end : {network.i[id], network.j[id]}) {
       k.translation[static_cast<std::size_t>(end)] += 0.5 * (material.normal_stiffness + material.tangential_stiffness);
       k.rotation[static_cast<std::size_t>(end)] += 0.25 * material.tangential_stiffness * l * l;
@@ -74,7 +74,7 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
                                         const MaterialOptions& material, double cundall_damping, int iterations) {
   const std::size_t n = masses.mass.size();
   std::vector<double> ux(n), uy(n), phi(n), fx(n), fy(n), torque(n);
-  for (std::size_t d = 0; d < n; ++d) {  // any start with a share in the highest mode: alternating signs
+  for (std::size_t d = 0; d < n; ++d) {  // any start with a part in the highest mode: alternating signs
     ux[d] = (d % 2 ? 1.0 : -1.0);
     uy[d] = (d % 3 ? 1.0 : -1.0);
     phi[d] = (d % 5 ? 1.0 : -1.0) * std::sqrt(masses.mass[d] / masses.inertia[d]);
@@ -88,7 +88,7 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
       const auto id = static_cast<std::size_t>(b);
       if (network.state[id] != BondState::intact) continue;
       const auto i = static_cast<std::size_t>(network.i[id]), j = static_cast<std::size_t>(network.j[id]);
-      const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.rest_length[id];
+      const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.reference_length[id];
       const double dx = ux[j] - ux[i], dy = uy[j] - uy[i];
       const double normal = material.normal_stiffness * (dx * nx + dy * ny);
       const double shear = material.tangential_stiffness * (-dx * ny + dy * nx - 0.5 * l * (phi[i] + phi[j]));
@@ -138,10 +138,10 @@ double voigt_modulus(const MaterialOptions& material, double bond_density) {
 
 LoadingEstimate estimate_loading(const BlockMeans& block, const SolverOptions& options) {
   LoadingEstimate e;
-  // Voigt's bound over the whole cell already holds the share of solid; the walls between holes also bend, which takes
-  // about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule
+  // Voigt's bound over the whole cell already holds the fraction of solid; the walls between holes also bend, which
+  // takes about one more power of it: measured 0.51 of Voigt on the 2 x 2 square cell, 0.43 by this rule
   // (docs/user/theory.md).
-  e.modulus = network_share * block.voigt_modulus * (1.0 - block.porosity);
+  e.modulus = network_ratio * block.voigt_modulus * (1.0 - block.porosity);
   e.bulk_density = block.bulk_density;
   e.wave_speed = std::sqrt(e.modulus / e.bulk_density);
   // Walls shear off when bonds of mean length reach delta_t^0; with a spread of strengths, earlier by about that
@@ -158,7 +158,7 @@ LoadingEstimate estimate_loading(const BondNetwork& network, const MassPropertie
                                  double width, double height, double porosity, double mean_diameter) {
   const MaterialOptions& material = options.material;
   double square_lengths = 0.0, lengths = 0.0;
-  for (const double l : network.rest_length) {
+  for (const double l : network.reference_length) {
     square_lengths += l * l;
     lengths += l;
   }

@@ -35,7 +35,7 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
 double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping);
 
 /// Share of Voigt's C11 that a relaxed packing keeps (0.82 to 0.96 for H = 2 to 4, docs/developer/verification.md).
-inline constexpr double network_share = 0.85;
+inline constexpr double network_ratio = 0.85;
 /// Voigt's C11, Pa, of bonds with sum l^2/area = `bond_density` (-).
 double voigt_modulus(const MaterialOptions& material, double bond_density);
 
@@ -53,7 +53,7 @@ LoadingEstimate estimate_loading(const BondNetwork& network, const MassPropertie
 /// The means that the loading estimate needs, counted from a network or expected of one.
 struct BlockMeans {
   double voigt_modulus = 0.0;     ///< C11 of the whole cell under affine strain, Pa
-  double porosity = 0.0;          ///< share of the perforations
+  double porosity = 0.0;          ///< fraction of the perforations
   double bulk_density = 0.0;      ///< kg/m3 of the whole cell
   double mean_bond_length = 0.0;  ///< m
   double mean_diameter = 0.0;     ///< <d>, m

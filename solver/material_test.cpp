@@ -19,7 +19,7 @@ constexpr int rows_to_yield = 100;      // history rows up to the estimated yiel
 constexpr double longest_test = 40.0;   // times the estimated yield strain: no peak until then is a result, too
 constexpr double largest_strain = 0.3;  // of a test: beyond it nothing is a solid any more
 constexpr double least_peak = 0.5;      // of the estimated yield strain: a maximum before it is a wave of the start
-constexpr double undamaged = 1e-3;      // share of the work that damage has taken: up to there moduli are elastic
+constexpr double undamaged = 1e-3;      // fraction of the work that damage has taken: up to there moduli are elastic
 constexpr double slope_from = 0.05, slope_to = 0.4;  // of the strength: above the first waves, below the first damage
 constexpr double separated = 0.05;                   // of the strength: a crack has crossed the sample
 constexpr double longest_separation =
@@ -90,7 +90,7 @@ double slope(const std::vector<double>& x, const std::vector<double>& y, std::si
 }
 
 /// modulus and lateral_ratio from the rows between 5 % and 40 % of the largest stress, as far as damage has taken no
-/// share of the work.
+/// fraction of the work.
 void read_moduli(MaterialTestResult& result, double largest_stress) {
   const results::MaterialCurve& curve = result.curve;
   std::size_t first = 0;
@@ -155,12 +155,12 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
   ready.original_bonds = count_bonds_per_disc(input.network, sample.x.size());
   input.masses = make_masses(sample, input.network, options.material, options.dynamics);
   double lengths = 0.0, squares = 0.0;
-  for (const double l : input.network.rest_length) {
+  for (const double l : input.network.reference_length) {
     lengths += l;
     squares += l * l;
   }
   const double area = sample.width * sample.height;
-  const double modulus = network_share * voigt_modulus(options.material, squares / area);
+  const double modulus = network_ratio * voigt_modulus(options.material, squares / area);
   const double transit = sample.height / std::sqrt(modulus * area / input.masses.total);
   ready.yield_strain = estimated_yield_strain(request.kind, options, request.mean_diameter,
                                               lengths / static_cast<double>(input.network.size()));

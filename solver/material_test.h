@@ -31,7 +31,7 @@ struct MaterialTestRequest {
   std::uint64_t noise_seed = 1;
   double mean_diameter = 0.0;     ///< <d>, m: r_H = horizon x this
   io::Cancellation cancellation;  ///< requested: the test stops with status `stopped` and reason "signal"
-  /// Called now and then with the share of the longest possible test that is done. May be empty.
+  /// Called now and then with the fraction of the longest possible test that is done. May be empty.
   std::function<void(double)> progress;
 };
 

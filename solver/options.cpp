@@ -13,6 +13,8 @@ using io::Dimension;
 using io::Range;
 
 void describe(io::Schema& schema, SolverOptions& options) {
+  schema.renamed({"material.critical_normal_stretch", "material.critical_normal_displacement"});
+  schema.renamed({"test", "material_test"});
   MaterialOptions& material = options.material;
   schema
       .section("material",
@@ -23,7 +25,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "k_n of bonds and contacts.")
       .real("tangential_stiffness", material.tangential_stiffness, Dimension::stiffness, Range::positive(),
             "k_t of bonds and contacts.")
-      .real("critical_normal_stretch", material.critical_normal_stretch, Dimension::length, Range::positive(),
+      .real("critical_normal_displacement", material.critical_normal_displacement, Dimension::length, Range::positive(),
             "delta_n^0: bond extension at first yield in pure tension, for the reference mean diameter.")
       .real("critical_shear_displacement", material.critical_shear_displacement, Dimension::length, Range::positive(),
             "delta_t^0: bond shear displacement at first yield in pure shear, for the reference mean diameter.")
@@ -131,7 +133,9 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
             "Wall time between checkpoints.");
   TestOptions& test = options.test;
-  schema.section("test", "Tests of the solid material (perfora test, perfora calibrate) on a square periodic sample.")
+  schema
+      .section("material_test",
+               "Tests of the solid material (perfora test, perfora calibrate) on a square periodic sample.")
       .real("size", test.size, Dimension::length, Range::positive(), "Side of the sample.")
       .boolean("tension", test.tension, "Uniaxial tension with stress-free sides.")
       .boolean("compression", test.compression, "Uniaxial compression with stress-free sides.")

@@ -34,7 +34,7 @@ struct MaterialOptions {
   double horizon = 3.0;                            ///< r_H/<d>
   double normal_stiffness = 2.195e7;               ///< k_n, N/m
   double tangential_stiffness = 8.246e6;           ///< k_t, N/m
-  double critical_normal_stretch = 1.529e-6;       ///< delta_n0, m
+  double critical_normal_displacement = 1.529e-6;  ///< delta_n0, m
   double critical_shear_displacement = 7.7996e-6;  ///< delta_t0, m
   double yield_exponent = 4.0;                     ///< alpha
   double rupture_delay = 1.1;                      ///< zeta_max

@@ -28,8 +28,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double peak_passed_share =
-    0.8;  // a row below this share of the largest row so far ends the search for the first peak
+constexpr double peak_passed_ratio =
+    0.8;  // a row below this fraction of the largest row so far ends the search for the first peak
 constexpr double latest_peak =
     10.0;  // times the estimated peak strain: a later fall is a serration of the rubble, not the first peak
 constexpr double least_peak_strain = 2e-4;  // rows before that are too close to zero stress to tell a fall
@@ -111,7 +111,7 @@ class Run {
   void start() {
     started_ = last_checkpoint_ = Clock::now();
     if (writes()) {
-      if (request_.resume && folder_.can_resume(identity())) {
+      if (request_.resume && folder_.can_resume(identity(), request_.in_names_of_today)) {
         progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
         for (const double stress : progress_.history.stress_yy)
           largest_row_stress_ = std::max(largest_row_stress_, stress);
@@ -219,7 +219,7 @@ class Run {
         largest_row_stress_ = stress;
         largest_row_strain_ = strain;
       }
-      if (strain > least_peak_strain && stress < peak_passed_share * largest_row_stress_ &&
+      if (strain > least_peak_strain && stress < peak_passed_ratio * largest_row_stress_ &&
           largest_row_strain_ < latest_peak * setup_.loading.peak_strain) {
         simulation_->freeze_peak();
         peak_just_passed_ = true;
@@ -352,7 +352,7 @@ class Run {
     run.history = progress_.history;
     run.events = simulation_->events();
     const BondNetwork& network = simulation_->network();
-    run.bonds.rest_length = network.rest_length;
+    run.bonds.reference_length = network.reference_length;
     run.bonds.strength_factor.assign(network.strength.begin(), network.strength.end());
     for (std::size_t b = 0; b < network.i.size(); ++b)
       run.bonds.pairs.insert(run.bonds.pairs.end(), {network.i[b], network.j[b]});

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 
 namespace perfora::solver {
 namespace {
@@ -33,9 +33,13 @@ void RunFolder::start_afresh(const std::string& config) {
   io::write_file(folder_ / "config.toml", config);
 }
 
-bool RunFolder::can_resume(const std::string& config) const {
+bool RunFolder::can_resume(const std::string& config,
+                           const std::function<std::string(const std::string&)>& in_names_of_today) const {
   if (!std::filesystem::exists(checkpoint_file())) return false;
-  const std::string found = io::read_file(folder_ / "config.toml");
+  std::string found = io::read_file(folder_ / "config.toml");
+  // The first line is a comment on program, seeds and kernel; keys follow.
+  const std::size_t keys = found.find('\n') + 1;
+  if (in_names_of_today) found = found.substr(0, keys) + in_names_of_today(found.substr(keys));
   if (without_until(found) != without_until(config))
     throw io::InputError({(folder_ / "config.toml").string(), 0, ""},
                          "the unfinished run there has another configuration",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ class RunFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// An empty folder with config.toml; what an earlier run left there is removed.
   void start_afresh(const std::string& config);
-  /// Whether it holds a checkpoint of this configuration (loading.until aside). Throws io::InputError when it holds one
-  /// of another.
-  bool can_resume(const std::string& config) const;
+  /// Whether it holds a checkpoint of this configuration (loading.until aside). `in_names_of_today` turns stored keys
+  /// into those of `config`; empty: they are. Throws io::InputError when it holds one of another.
+  bool can_resume(const std::string& config,
+                  const std::function<std::string(const std::string&)>& in_names_of_today) const;
   std::filesystem::path frame_file(int number) const;
   /// The first `count` of them.
   std::vector<std::filesystem::path> frame_files(int count) const;

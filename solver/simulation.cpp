@@ -14,12 +14,12 @@ std::size_t at(std::int32_t k) {
   return static_cast<std::size_t>(k);
 }
 
-constexpr double skin_share = 0.35;  // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
+constexpr double skin_ratio = 0.35;  // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
 /// Share of the skin at which a list is renewed when displacements are looked at; below it, looking often would cost
 /// more than a list.
-constexpr double renewal_share = 0.9;
-constexpr std::int64_t compaction_stride = 1024;  // steps between looks at the share of empty slots
-constexpr double compaction_share = 0.02;         // of the intact bonds: then rows are compacted
+constexpr double renewal_fraction = 0.9;
+constexpr std::int64_t compaction_stride = 1024;  // steps between looks at the fraction of empty slots
+constexpr double compaction_fraction = 0.02;      // of the intact bonds: then rows are compacted
 
 /// sum V_ab (dH H^-1)_ab, the affine part of the pair work, for upper-triangular matrices.
 double affine_work(const Virial& v, const CellMatrix& change, const CellMatrix& h) {
@@ -72,16 +72,16 @@ Simulation::Simulation(SimulationInput input)
   }
   damping_ = CundallDamping(options_.dynamics, network_, n);
   discs_.position_shift = record_shift(now_, input.mean_diameter * options_.material.horizon,
-                                       2.0 * largest_radius + skin_share * input.mean_diameter);
+                                       2.0 * largest_radius + skin_ratio * input.mean_diameter);
   refresh_records();
-  near_pairs_.configure(discs_.size(), largest_radius, skin_share * input.mean_diameter);
-  near_pairs_.rebuild(discs_, now_, network_, threads_);
+  neighbour_list_.configure(discs_.size(), largest_radius, skin_ratio * input.mean_diameter);
+  neighbour_list_.rebuild(discs_, now_, network_, threads_);
   walls_ = Walls(std::move(input.walls), contact_law_, 1.0 / bond_law_.inverse_critical_normal, discs_, now_);
   backend_ = options_.dynamics.kernel == KernelChoice::reference
                  ? make_reference_backend(bond_law_, contact_law_)
                  : make_openmp_backend(bond_law_, contact_law_, threads_, options_.dynamics.simd);
   backend_->load(network_, discs_, cell_.start);
-  backend_->list(near_pairs_, discs_);
+  backend_->set_neighbours(neighbour_list_, discs_);
   broken_.reserve(static_cast<std::size_t>(network_.size()));
   events_.reserve(static_cast<std::size_t>(network_.size()));
   chunk_sums_.resize((n + chunk_discs - 1) / chunk_discs);
@@ -93,19 +93,19 @@ void Simulation::refresh_records() {
   for (std::size_t d = 0; d < discs_.sx.size(); ++d) discs_.refresh_record(d);
   discs_.sx_before = discs_.sx;
   discs_.sy_before = discs_.sy;
-  discs_.turn_before = discs_.turn;
+  discs_.half_angle_before = discs_.half_angle;
 }
 
 void Simulation::move_discs() {
   std::swap(discs_.sx, discs_.sx_before);
   std::swap(discs_.sy, discs_.sy_before);
-  std::swap(discs_.turn, discs_.turn_before);
+  std::swap(discs_.half_angle, discs_.half_angle_before);
   const KickAndDrift task{discs_,
                           inverse_mass_.data(),
                           inverse_inertia_.data(),
                           time_step_,
                           damping_.coefficients(),
-                          damping_.rotation_share(),
+                          damping_.rotation_ratio(),
                           {0.5 * (before_.xx + now_.xx), 0.5 * (before_.xy + now_.xy), 0.5 * (before_.yy + now_.yy)}};
   const auto chunks = static_cast<std::int32_t>(chunk_sums_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
@@ -121,13 +121,13 @@ void Simulation::move_discs() {
 }
 
 void Simulation::keep_near_pairs() {
-  if (!near_pairs_.outdated(progress_.travelled, now_)) return;
+  if (!neighbour_list_.outdated(progress_.travelled, now_)) return;
   // No disc has gone farther than `travelled`; most have gone less.
-  progress_.travelled = near_pairs_.largest_displacement(discs_, now_);
-  if (!near_pairs_.outdated(progress_.travelled / renewal_share, now_)) return;
-  backend_->collect(near_pairs_);
-  near_pairs_.rebuild(discs_, now_, network_, threads_);
-  backend_->list(near_pairs_, discs_);
+  progress_.travelled = neighbour_list_.largest_displacement(discs_, now_);
+  if (!neighbour_list_.outdated(progress_.travelled / renewal_fraction, now_)) return;
+  backend_->export_contact_history(neighbour_list_);
+  neighbour_list_.rebuild(discs_, now_, network_, threads_);
+  backend_->set_neighbours(neighbour_list_, discs_);
   progress_.travelled = 0.0;
 }
 
@@ -169,7 +169,7 @@ void Simulation::step() {
   move_discs();
   keep_near_pairs();
   broken_.clear();
-  ForceStep step{discs_,     network_, near_pairs_, now_, before_, velocity_gradient(before_, now_, time_step_),
+  ForceStep step{discs_,     network_, neighbour_list_, now_, before_, velocity_gradient(before_, now_, time_step_),
                  time_step_, broken_};
   StepSums sums = backend_->forces(step);
   walls_.add_forces(step, threads_, sums);
@@ -212,7 +212,7 @@ void Simulation::record_breaks() {
   for (const std::int32_t id : broken_) {
     const std::int32_t i = network_.i[at(id)], j = network_.j[at(id)];
     const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[at(id)],
-                                           network_.direction_y[at(id)], network_.rest_length[at(id)]);
+                                           network_.direction_y[at(id)], network_.reference_length[at(id)]);
     const auto [x, y] = position(i);
     results::BreakEvent event;
     event.time = time();
@@ -228,8 +228,9 @@ void Simulation::record_breaks() {
     const double shear =
         half_integer_power(std::fabs(k.delta_t) * bond_law_.inverse_critical_shear * scale, bond_law_.twice_alpha);
     event.mode = tension > shear ? results::BreakMode::tension : results::BreakMode::shear;
-    const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[at(id)]);
-    const BondPoint point{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
+    const double contact_distance =
+        std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.reference_length[at(id)]);
+    const BondPoint point{k.delta_n, k.delta_t, std::max(0.0, contact_distance - k.length)};
     event.energy = damageable_energy(bond_law_, point, point);
     events_.push_back(event);
     damping_.bond_broke(i, j);
@@ -239,7 +240,7 @@ void Simulation::record_breaks() {
 }
 
 void Simulation::compact_when_due() {
-  if (progress_.steps % compaction_stride != 0 || progress_.broken_in_layout <= compaction_share * progress_.intact)
+  if (progress_.steps % compaction_stride != 0 || progress_.broken_in_layout <= compaction_fraction * progress_.intact)
     return;
   for (BondState& state : network_.state)
     if (state == BondState::broken) state = BondState::compacted;
@@ -271,13 +272,13 @@ std::pair<double, double> Simulation::position(std::int32_t disc) const {
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
-  backend_->collect(near_pairs_);
+  backend_->export_contact_history(neighbour_list_);
   Snapshot s;
   s.progress = progress_;
   s.discs = discs_;
   s.damage = network_.damage;
   for (const BondState state : network_.state) s.bond_state.push_back(static_cast<std::uint8_t>(state));
-  s.near_pairs = near_pairs_.snapshot();
+  s.neighbour_list = neighbour_list_.snapshot();
   s.walls = walls_.snapshot();
   s.events = events_;
   return s;
@@ -294,14 +295,14 @@ void Simulation::restore(Snapshot s) {
   discs_.motion.resize(discs_.sx.size());
   network_.damage = std::move(s.damage);
   for (std::size_t b = 0; b < s.bond_state.size(); ++b) network_.state[b] = static_cast<BondState>(s.bond_state[b]);
-  near_pairs_.restore(s.near_pairs);
+  neighbour_list_.restore(s.neighbour_list);
   walls_.restore(s.walls);
   events_.reserve(static_cast<std::size_t>(network_.size()));
   events_.assign(s.events.begin(), s.events.end());
   damping_ = CundallDamping(options_.dynamics, network_, discs_.sx.size());
   refresh_records();
   backend_->load(network_, discs_, cell_.start);
-  backend_->list(near_pairs_, discs_);
+  backend_->set_neighbours(neighbour_list_, discs_);
 }
 
 }  // namespace perfora::solver

@@ -87,9 +87,9 @@ class Simulation {
   const BondNetwork& network() const { return network_; }
   const DiscState& discs() const { return discs_; }
   DiscState& discs() { return discs_; }  ///< for tests that set velocities and angles before the first step
-  const NearPairs& near_pairs() const {
-    backend_->collect(near_pairs_);
-    return near_pairs_;
+  const NeighbourList& neighbour_list() const {
+    backend_->export_contact_history(neighbour_list_);
+    return neighbour_list_;
   }
   const std::vector<results::BreakEvent>& events() const { return events_; }
   std::int64_t intact_bonds() const { return static_cast<std::int64_t>(progress_.intact); }
@@ -122,7 +122,7 @@ class Simulation {
     DiscState discs;
     std::vector<double> damage;
     std::vector<std::uint8_t> bond_state;
-    NearPairs::Snapshot near_pairs;
+    NeighbourList::Snapshot neighbour_list;
     Walls::Snapshot walls;
     std::vector<results::BreakEvent> events;
   };
@@ -153,7 +153,7 @@ class Simulation {
   std::vector<double> inverse_mass_, inverse_inertia_;
   CundallDamping damping_;
   BondNetwork network_;
-  mutable NearPairs near_pairs_;  // contact histories come from the backend when somebody asks
+  mutable NeighbourList neighbour_list_;  // contact histories come from the backend when somebody asks
   Walls walls_;
   std::unique_ptr<ForceBackend> backend_;
   std::vector<std::int32_t> broken_;

@@ -36,7 +36,7 @@ struct HalfKick {
 }  // namespace
 
 Ledger Simulation::ledger() const {
-  backend_->collect(near_pairs_);
+  backend_->export_contact_history(neighbour_list_);
   Ledger ledger = progress_.ledger;
   ledger.elastic_contacts += walls_.elastic_energy(discs_, now_);
   const double half = 0.5 * time_step_;
@@ -46,7 +46,7 @@ Ledger Simulation::ledger() const {
         for (auto k = static_cast<std::size_t>(d); k < static_cast<std::size_t>(end); ++k) {
           const double vx = discs_.vx[k], vy = discs_.vy[k], w = discs_.omega[k], c = damping_.of_force(k);
           const double fx = damped(discs_.fx[k], vx, c), fy = damped(discs_.fy[k], vy, c),
-                       torque = damped(discs_.torque[k], w, damping_.rotation_share() * c);
+                       torque = damped(discs_.torque[k], w, damping_.rotation_ratio() * c);
           const double nvx = vx + half * fx * inverse_mass_[k], nvy = vy + half * fy * inverse_mass_[k],
                        nw = w + half * torque * inverse_inertia_[k];
           sum.cundall -= 0.5 * half *
@@ -65,9 +65,11 @@ Ledger Simulation::ledger() const {
           if (network_.state[id] != BondState::intact) continue;
           const std::int32_t i = network_.i[id], j = network_.j[id];
           const BondKinematics k = kinematics_of(discs_, i, j, now_, network_.direction_x[id], network_.direction_y[id],
-                                                 network_.rest_length[id]);
-          const double touch = std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.rest_length[id]);
-          sum += bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, touch - k.length)}, network_.damage[id]);
+                                                 network_.reference_length[id]);
+          const double contact_distance =
+              std::min(discs_.radius[at(i)] + discs_.radius[at(j)], network_.reference_length[id]);
+          sum += bond_energy(bond_law_, {k.delta_n, k.delta_t, std::max(0.0, contact_distance - k.length)},
+                             network_.damage[id]);
         }
         return sum;
       });
@@ -75,10 +77,10 @@ Ledger Simulation::ledger() const {
       sum_of_chunks<double>(discs_.size(), chunk_discs, threads_, [&](std::int64_t first, std::int64_t last) {
         double sum = 0.0;
         for (auto i = static_cast<std::int32_t>(first); i < last; ++i)
-          for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
-            const NearSlot& slot = near_pairs_.slots()[at(k)];
+          for (std::int32_t k = neighbour_list_.row_begin(i); k < neighbour_list_.row_end(i); ++k) {
+            const NeighbourSlot& slot = neighbour_list_.slots()[at(k)];
             if (slot.bonded != 0 || slot.neighbour < i) continue;
-            const double overlap = std::max(0.0, slot.touch - distance(i, slot.neighbour));
+            const double overlap = std::max(0.0, slot.contact_distance - distance(i, slot.neighbour));
             sum += 0.5 * (contact_law_.normal_stiffness * overlap * overlap +
                           contact_law_.tangential_stiffness * slot.history.shear * slot.history.shear);
           }
@@ -88,14 +90,14 @@ Ledger Simulation::ledger() const {
 }
 
 std::int64_t Simulation::contacts() const {
-  backend_->collect(near_pairs_);
+  backend_->export_contact_history(neighbour_list_);
   return sum_of_chunks<std::int64_t>(discs_.size(), chunk_discs, threads_, [&](std::int64_t first, std::int64_t last) {
     std::int64_t count = 0;
     for (auto i = static_cast<std::int32_t>(first); i < last; ++i) {
-      if (near_pairs_.active(i) == 0) continue;
-      for (std::int32_t k = near_pairs_.row_begin(i); k < near_pairs_.row_end(i); ++k) {
-        const NearSlot& slot = near_pairs_.slots()[at(k)];
-        if (slot.bonded == 0 && slot.neighbour > i && distance(i, slot.neighbour) < slot.touch) ++count;
+      if (neighbour_list_.active(i) == 0) continue;
+      for (std::int32_t k = neighbour_list_.row_begin(i); k < neighbour_list_.row_end(i); ++k) {
+        const NeighbourSlot& slot = neighbour_list_.slots()[at(k)];
+        if (slot.bonded == 0 && slot.neighbour > i && distance(i, slot.neighbour) < slot.contact_distance) ++count;
       }
     }
     return count;

@@ -22,16 +22,16 @@ Span embedded(double block, double between_walls, double vacuum) {
   return {cell, 0.5 * (cell - block)};
 }
 
-void add_walls(std::vector<WallPlace>& walls, WallSide low, WallSide high, double vacuum_share, double friction,
+void add_walls(std::vector<WallPlace>& walls, WallSide low, WallSide high, double vacuum_fraction, double friction,
                bool edge) {
-  const double half = 0.5 * vacuum_share;
+  const double half = 0.5 * vacuum_fraction;
   walls.push_back({low, half, half, friction, edge, {}});
   walls.push_back({high, 1.0 - half, half, friction, edge, {}});
 }
 
-/// One bed a disc for the bonds of the periodic block that cross the edge of the wall.
-void add_beds(WallPlace& wall, const geometry::Packing& clipped, const BondNetwork& periodic,
-              const MaterialOptions& material) {
+/// One residual face stiffness a disc for the bonds of the periodic block that cross the edge of the wall.
+void add_face_stiffness(WallPlace& wall, const geometry::Packing& clipped, const BondNetwork& periodic,
+                        const MaterialOptions& material) {
   const bool vertical = wall.side == WallSide::bottom || wall.side == WallSide::top;
   const bool low = wall.side == WallSide::bottom || wall.side == WallSide::left;
   const std::vector<double>& place = vertical ? clipped.y : clipped.x;
@@ -41,28 +41,28 @@ void add_beds(WallPlace& wall, const geometry::Packing& clipped, const BondNetwo
     const double nx = periodic.direction_x[b], ny = periodic.direction_y[b];
     const double along = vertical ? ny : nx, beside = vertical ? nx : ny;
     const auto i = static_cast<std::size_t>(periodic.i[b]), j = static_cast<std::size_t>(periodic.j[b]);
-    const double end = place[i] + along * periodic.rest_length[b];
+    const double end = place[i] + along * periodic.reference_length[b];
     if (end >= 0.0 && end < length) continue;
     const std::size_t disc = (end < 0.0) == low ? i : j;  // the end on this wall's side of the block
     normal[disc] += material.normal_stiffness * along * along + material.tangential_stiffness * beside * beside;
     tangential[disc] += material.normal_stiffness * beside * beside + material.tangential_stiffness * along * along;
   }
   for (std::size_t d = 0; d < place.size(); ++d)
-    if (normal[d] > 0.0) wall.beds.push_back({static_cast<std::int32_t>(d), normal[d], tangential[d]});
+    if (normal[d] > 0.0) wall.face_stiffness.push_back({static_cast<std::int32_t>(d), normal[d], tangential[d]});
 }
 
 }  // namespace
 
 std::pair<double, double> BlockFrame::position(std::uint64_t sx, std::uint64_t sy, const CellMatrix& cell) const {
   const auto whole = [](std::uint64_t s) { return static_cast<double>(s >> 11) * 0x1p-53; };
-  const auto near_middle = [](std::uint64_t s, double origin, double share) {
-    return reduced(s - fixed_point(origin + 0.5 * share)) + 0.5 * share;
+  const auto near_middle = [](std::uint64_t s, double origin, double fraction) {
+    return reduced(s - fixed_point(origin + 0.5 * fraction)) + 0.5 * fraction;
   };
-  const double y_share = open_y ? near_middle(sy, origin_y, share_y) : whole(sy);
-  const double x_share = open_x ? near_middle(sx, origin_x, share_x) : whole(sx);
-  double x = cell.xx * x_share + cell.xy * y_share;
+  const double y_fraction = open_y ? near_middle(sy, origin_y, fraction_y) : whole(sy);
+  const double x_fraction = open_x ? near_middle(sx, origin_x, fraction_x) : whole(sx);
+  double x = cell.xx * x_fraction + cell.xy * y_fraction;
   if (!open_x) x -= cell.xx * std::floor(x / cell.xx);
-  return {x, cell.yy * y_share};
+  return {x, cell.yy * y_fraction};
 }
 
 Specimen make_specimen(const geometry::Packing& clipped, const geometry::PerforationLayout& layout,
@@ -92,12 +92,12 @@ Specimen make_specimen(const geometry::Packing& clipped, const geometry::Perfora
   }
   const BondNetwork periodic = make_bond_network(clipped, layout, material, {}, 1, mean_diameter);
   for (WallPlace& wall : s.walls)
-    if (wall.edge) add_beds(wall, clipped, periodic, material);
+    if (wall.edge) add_face_stiffness(wall, clipped, periodic, material);
   s.cell = {x.cell, 0.0, y.cell};
   s.block.origin_x = x.offset / x.cell;
   s.block.origin_y = y.offset / y.cell;
-  s.block.share_x = layout.width / x.cell;
-  s.block.share_y = layout.height / y.cell;
+  s.block.fraction_x = layout.width / x.cell;
+  s.block.fraction_y = layout.height / y.cell;
   s.field = {layout.width, layout.height, x.offset, y.offset};
   s.layout = {x.cell, y.cell, layout.cut_out(s.block.open_x, s.block.open_y)};
   for (geometry::Perforation& hole : s.layout.perforations) hole = hole.moved_by(x.offset, y.offset);

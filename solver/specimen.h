@@ -16,12 +16,14 @@ namespace perfora::solver {
 
 /// The block in reduced coordinates of the cell; affine motion keeps it there. By default the block is the cell.
 struct BlockFrame {
-  double origin_x = 0.0, origin_y = 0.0;  ///< lower left corner
-  double share_x = 1.0, share_y = 1.0;    ///< width and height over the cell's
-  bool open_x = false, open_y = false;    ///< beyond the edges there is vacuum, no periodic image
+  double origin_x = 0.0, origin_y = 0.0;      ///< lower left corner
+  double fraction_x = 1.0, fraction_y = 1.0;  ///< width and height over the cell's
+  bool open_x = false, open_y = false;        ///< beyond the edges there is vacuum, no periodic image
 
   /// Edges of the block as it is now, m: the cell's, or the nominal rectangle between the platens and sides.
-  CellMatrix edges(const CellMatrix& cell) const { return {cell.xx * share_x, cell.xy * share_y, cell.yy * share_y}; }
+  CellMatrix edges(const CellMatrix& cell) const {
+    return {cell.xx * fraction_x, cell.xy * fraction_y, cell.yy * fraction_y};
+  }
   /// Place in m from the block's lower left corner; wrapped into the cell where the block is periodic, as near to the
   /// middle as an image can be where it is not.
   std::pair<double, double> position(std::uint64_t sx, std::uint64_t sy, const CellMatrix& cell) const;
@@ -30,7 +32,7 @@ struct BlockFrame {
 enum class WallSide { bottom, top, left, right };
 
 /// Residual face stiffness: a disc near a cut edge is held by the wall with the stiffness of the bonds it lost.
-struct Bed {
+struct FaceStiffness {
   std::int32_t disc = 0;
   double normal_stiffness = 0.0;      ///< sum over its cut bonds of k_n n_a^2 + k_t n_b^2, a across the edge, N/m
   double tangential_stiffness = 0.0;  ///< of k_n n_b^2 + k_t n_a^2, N/m
@@ -43,7 +45,7 @@ struct WallPlace {
   double behind = 0.0;    ///< reduced depth behind it that still counts as its own: half the vacuum
   double friction = 0.0;  ///< mu
   bool edge = true;       ///< at an edge of the block; else it stands apart and only catches what flies off
-  std::vector<Bed> beds;  ///< at an edge: by rising disc
+  std::vector<FaceStiffness> face_stiffness;  ///< at an edge: by rising disc
 };
 
 /// What a compression starts from. Periodic edges: packing and layout as they were given.

@@ -7,7 +7,7 @@
 namespace perfora::solver {
 
 void DiscState::resize(std::size_t n) {
-  for (auto* field : {&sx, &sy, &turn, &sx_before, &sy_before, &turn_before}) field->assign(n, 0);
+  for (auto* field : {&sx, &sy, &half_angle, &sx_before, &sy_before, &half_angle_before}) field->assign(n, 0);
   for (auto* field : {&vx, &vy, &omega, &fx, &fy, &torque, &radius, &mass, &inertia}) field->assign(n, 0.0);
   record.resize(n);
   motion.resize(n);
@@ -15,7 +15,7 @@ void DiscState::resize(std::size_t n) {
 
 void DiscState::set_angle(std::size_t disc, double angle) {
   const double turns = angle / (4.0 * std::numbers::pi);
-  turn[disc] = fixed_point(turns - std::floor(turns));
+  half_angle[disc] = fixed_point(turns - std::floor(turns));
 }
 
 }  // namespace perfora::solver

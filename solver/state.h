@@ -1,5 +1,5 @@
 // What is here: the state of all discs as structure of arrays, the compact record the force loops read, sums of one
-// step. What is not: bonds (bond_network.h), near pairs (near_pairs.h), the step (simulation.h).
+// step. What is not: bonds (bond_network.h), near pairs (neighbour_list.h), the step (simulation.h).
 #pragma once
 
 #include <cmath>
@@ -26,10 +26,10 @@ struct alignas(16) DiscMotion {
 /// sums do not round. Half angles are fixed point of the full turn in the same way. Velocities are fluctuations v' =
 /// dx/dt - L x, held at half steps (leapfrog form of velocity Verlet).
 struct DiscState {
-  std::vector<std::uint64_t> sx, sy;                             ///< reduced position at the end of the last drift
-  std::vector<std::uint64_t> turn;                               ///< half the angle, over the full turn
-  std::vector<std::uint64_t> sx_before, sy_before, turn_before;  ///< the same at its start
-  std::vector<double> vx, vy, omega;                             ///< m/s, rad/s
+  std::vector<std::uint64_t> sx, sy;      ///< reduced position at the end of the last drift
+  std::vector<std::uint64_t> half_angle;  ///< half the angle, over the full turn
+  std::vector<std::uint64_t> sx_before, sy_before, half_angle_before;  ///< the same at its start
+  std::vector<double> vx, vy, omega;                                   ///< m/s, rad/s
   std::vector<double> fx, fy, torque;  ///< of bonds and contacts, N/m and N; Cundall damping is added by the kick
   std::vector<double> radius, mass, inertia;
   std::vector<DiscRecord> record;
@@ -41,7 +41,7 @@ struct DiscState {
   void resize(std::size_t n);
   /// Angle in [-2 pi, 2 pi), rad. All laws are even under a full turn.
   double angle(std::size_t disc) const {
-    return 4.0 * std::numbers::pi * 0x1p-64 * static_cast<double>(static_cast<std::int64_t>(turn[disc]));
+    return 4.0 * std::numbers::pi * 0x1p-64 * static_cast<double>(static_cast<std::int64_t>(half_angle[disc]));
   }
   void set_angle(std::size_t disc, double angle);
   /// Makes a disc's record from its position and angle, and its motion.
@@ -64,10 +64,10 @@ struct CosineSine {
 
 /// Cosine and sine of 2 pi turn/2^64 by Taylor's series within an eighth of a turn: only IEEE basic operations, so that
 /// bits do not depend on a maths library. Absolute error below 3e-16.
-inline CosineSine cosine_sine(std::uint64_t turn) {
-  const std::uint64_t quadrant = (turn + (std::uint64_t{1} << 61)) >> 62;
-  const double a =
-      static_cast<double>(static_cast<std::int64_t>(turn - (quadrant << 62))) * (2.0 * std::numbers::pi * 0x1p-64);
+inline CosineSine cosine_sine(std::uint64_t half_angle) {
+  const std::uint64_t quadrant = (half_angle + (std::uint64_t{1} << 61)) >> 62;
+  const double a = static_cast<double>(static_cast<std::int64_t>(half_angle - (quadrant << 62))) *
+                   (2.0 * std::numbers::pi * 0x1p-64);
   const double b = a * a;
   double s = -1.0 / 1307674368000.0, c = 1.0 / 20922789888000.0;  // 1/15!, 1/16!
   for (const double inverse :

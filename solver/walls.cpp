@@ -25,10 +25,10 @@ Walls::Walls(std::vector<WallPlace> places, const ContactLaw& contact, double cr
   contact_.resize(places_.size() * discs_);
   for (std::size_t w = 0; w < places_.size(); ++w) {
     for (std::size_t d = 0; d < discs_; ++d)
-      contact_[w * discs_ + d].touch = std::min(discs.radius[d], distance(w, d, discs, cell));
-    for (const Bed& bed : places_[w].beds) {
-      const auto d = static_cast<std::size_t>(bed.disc);
-      contact_[w * discs_ + d] = {distance(w, d, discs, cell), bed.normal_stiffness, bed.tangential_stiffness, {}};
+      contact_[w * discs_ + d].contact_distance = std::min(discs.radius[d], distance(w, d, discs, cell));
+    for (const FaceStiffness& face : places_[w].face_stiffness) {
+      const auto d = static_cast<std::size_t>(face.disc);
+      contact_[w * discs_ + d] = {distance(w, d, discs, cell), face.normal_stiffness, face.tangential_stiffness, {}};
     }
   }
   if (!empty()) chunk_sums_.resize((discs_ + chunk_discs - 1) / chunk_discs);
@@ -37,17 +37,18 @@ Walls::Walls(std::vector<WallPlace> places, const ContactLaw& contact, double cr
 double Walls::distance(std::size_t w, std::size_t d, const DiscState& discs, const CellMatrix& cell) const {
   const WallPlace& place = places_[w];
   const bool y = across(place.side);
-  double share = inward(place.side) * reduced((y ? discs.sy[d] : discs.sx[d]) - fixed_[w]);
-  if (share < -place.behind) share += 1.0;  // beyond the middle of the vacuum: the far end of the block, seen from here
-  return share * (y ? cell.yy : cell.xx);
+  double fraction = inward(place.side) * reduced((y ? discs.sy[d] : discs.sx[d]) - fixed_[w]);
+  if (fraction < -place.behind)
+    fraction += 1.0;  // beyond the middle of the vacuum: the far end of the block, seen from here
+  return fraction * (y ? cell.yy : cell.xx);
 }
 
 ContactLaw Walls::law_of(const Contact& contact, std::size_t w) const {
   ContactLaw law = law_;
   law.friction_coefficient = places_[w].friction;
-  if (contact.bedded()) {
-    law.normal_stiffness = contact.bed_normal;
-    law.tangential_stiffness = contact.bed_tangential;
+  if (contact.has_face_stiffness()) {
+    law.normal_stiffness = contact.face_normal_stiffness;
+    law.tangential_stiffness = contact.face_tangential_stiffness;
     law.viscous_rate = 0.0;
   }
   return law;
@@ -55,19 +56,20 @@ ContactLaw Walls::law_of(const Contact& contact, std::size_t w) const {
 
 /// Wall i, disc j, n into the block: laws.h's contact with the disc's own mass (the wall's is infinite) and its
 /// distance as lever. Relative velocity: v' + L (x - nearest point of the wall).
-void Walls::touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& chunk) {
+void Walls::wall_contact(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& chunk) {
   DiscState& discs = step.discs;
   Contact& contact = contact_[w * discs_ + d];
   const double lever = distance(w, d, discs, step.cell);
   const double radius = discs.radius[d];
-  const double lost_at = contact.bedded() ? std::max(radius, contact.touch + critical_stretch_) : radius;
+  const double lost_at =
+      contact.has_face_stiffness() ? std::max(radius, contact.contact_distance + critical_stretch_) : radius;
   const bool lost = lever > lost_at;
-  const double overlap = contact.touch - lever;
+  const double overlap = contact.contact_distance - lever;
   const bool open = !(overlap > 0.0);
   const ContactLaw law = law_of(contact, w);
   if (lost) {
-    contact.touch = radius;
-    contact.bed_normal = contact.bed_tangential = 0.0;
+    contact.contact_distance = radius;
+    contact.face_normal_stiffness = contact.face_tangential_stiffness = 0.0;
   }
   if (open && contact.history.shear == 0.0 && contact.history.viscous_force == 0.0) return;
   const bool y = across(places_[w].side);
@@ -98,7 +100,7 @@ void Walls::touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums&
   chunk.sums.friction += f.friction;
   chunk.sums.viscous += f.viscous;
   // The residual stiffness stands for bonds, whose shortening is no overlap of discs.
-  if (!contact.bedded()) chunk.sums.largest_overlap = std::max(chunk.sums.largest_overlap, overlap);
+  if (!contact.has_face_stiffness()) chunk.sums.largest_overlap = std::max(chunk.sums.largest_overlap, overlap);
 }
 
 void Walls::add_forces(ForceStep& step, int threads, StepSums& sums) {
@@ -109,7 +111,7 @@ void Walls::add_forces(ForceStep& step, int threads, StepSums& sums) {
     ChunkSums own;
     const std::size_t begin = static_cast<std::size_t>(chunk) * chunk_discs;
     for (std::size_t d = begin; d < std::min(discs_, begin + chunk_discs); ++d)
-      for (std::size_t w = 0; w < places_.size(); ++w) touch_wall(step, w, d, own);
+      for (std::size_t w = 0; w < places_.size(); ++w) wall_contact(step, w, d, own);
     chunk_sums_[static_cast<std::size_t>(chunk)] = own;
   }
   force_ = {};
@@ -125,7 +127,7 @@ double Walls::elastic_energy(const DiscState& discs, const CellMatrix& cell) con
   for (std::size_t w = 0; w < places_.size(); ++w)
     for (std::size_t d = 0; d < discs_; ++d) {
       const Contact& contact = contact_[w * discs_ + d];
-      const double overlap = std::max(0.0, contact.touch - distance(w, d, discs, cell));
+      const double overlap = std::max(0.0, contact.contact_distance - distance(w, d, discs, cell));
       const ContactLaw law = law_of(contact, w);
       energy += 0.5 * (law.normal_stiffness * overlap * overlap +
                        law.tangential_stiffness * contact.history.shear * contact.history.shear);
@@ -155,10 +157,10 @@ double Walls::row_pressure(std::size_t w) const {
 Walls::Snapshot Walls::snapshot() const {
   Snapshot s;
   for (const Contact& contact : contact_) {
-    s.touch.push_back(contact.touch);
+    s.contact_distance.push_back(contact.contact_distance);
     s.shear.push_back(contact.history.shear);
     s.viscous_force.push_back(contact.history.viscous_force);
-    s.bedded.push_back(contact.bedded() ? 1 : 0);
+    s.has_face_stiffness.push_back(contact.has_face_stiffness() ? 1 : 0);
   }
   s.row.insert(s.row.end(), pressure_.begin(), pressure_.end());
   s.row.insert(s.row.end(), row_sum_.begin(), row_sum_.end());
@@ -170,9 +172,9 @@ void Walls::restore(const Snapshot& s) {
   if (empty()) return;
   for (std::size_t k = 0; k < contact_.size(); ++k) {
     Contact& contact = contact_[k];
-    contact.touch = s.touch.at(k);
+    contact.contact_distance = s.contact_distance.at(k);
     contact.history = {s.shear.at(k), s.viscous_force.at(k)};
-    if (s.bedded.at(k) == 0) contact.bed_normal = contact.bed_tangential = 0.0;
+    if (s.has_face_stiffness.at(k) == 0) contact.face_normal_stiffness = contact.face_tangential_stiffness = 0.0;
   }
   for (std::size_t w = 0; w < pressure_.size(); ++w) {
     pressure_[w] = s.row.at(w);

@@ -42,8 +42,8 @@ class Walls {
 
   /// Everything that changes during a run; histories wall by wall, disc by disc.
   struct Snapshot {
-    std::vector<double> touch, shear, viscous_force;
-    std::vector<std::uint8_t> bedded;
+    std::vector<double> contact_distance, shear, viscous_force;
+    std::vector<std::uint8_t> has_face_stiffness;
     std::vector<double> row;  ///< pressures now, their sums in the row, their weights
   };
   Snapshot snapshot() const;
@@ -51,10 +51,11 @@ class Walls {
 
  private:
   struct Contact {
-    double touch = 0.0;  ///< distance at which it touches: the radius, or the first distance of a bedded or cut disc
-    double bed_normal = 0.0, bed_tangential = 0.0;  ///< N/m; 0: not bedded
+    double contact_distance =
+        0.0;  ///< distance at which it touches: the radius, or the first distance of a disc cut or held by a face
+    double face_normal_stiffness = 0.0, face_tangential_stiffness = 0.0;  ///< N/m; 0: none left
     ContactHistory history;
-    bool bedded() const { return bed_normal > 0.0; }
+    bool has_face_stiffness() const { return face_normal_stiffness > 0.0; }
   };
   struct ChunkSums {
     StepSums sums;
@@ -63,7 +64,7 @@ class Walls {
   /// Distance of disc d's centre from wall w, m, negative behind it.
   double distance(std::size_t w, std::size_t d, const DiscState& discs, const CellMatrix& cell) const;
   ContactLaw law_of(const Contact& contact, std::size_t w) const;
-  void touch_wall(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& sums);
+  void wall_contact(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& sums);
 
   std::vector<WallPlace> places_;
   std::vector<std::uint64_t> fixed_;  ///< reduced coordinates in fixed point

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "optimize/campaign/campaign.h"
 #include "optimize/evaluate/request.h"
 #include "results/formats.h"

@@ -289,6 +289,8 @@ struct Reader {
       for (const io::Value& value : axis.values) add({{axis.key, value}}, axis.key, "");
     if (std::none_of(labels.begin(), labels.end(), [&](const auto& label) { return is_chosen(label, only); }))
       refuse_choice(path, only, labels);
+    const std::vector<std::string> notices = sweep.start->schema().notices();
+    sweep.warnings.insert(sweep.warnings.end(), notices.begin(), notices.end());
     const std::vector<std::string> told = warnings.told(sweep.cases.size());
     sweep.warnings.insert(sweep.warnings.end(), told.begin(), told.end());
     for (const SweepCase& one : sweep.cases)

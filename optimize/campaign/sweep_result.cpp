@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "io/csv.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "results/formats.h"
 

@@ -8,6 +8,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
+#include "io/toml.h"
 
 namespace perfora::optimize {
 namespace {
@@ -48,7 +49,8 @@ void TableFile::take(io::Entry entry, const std::string& source) {
   std::erase_if(entry.key,
                 [](char c) { return c == '"' || c == '\''; });  // "layout.diameter" is one quoted key in TOML.
   auto& list = table == set_table ? fixed_ : entries_;
-  const std::string key = io::after_section(entry.key);
+  const std::string given = io::after_section(entry.key), key = DesignFile().schema().name_today(given);
+  if (key != given) old_names_.push_back({source, entry.value.line, given});
   std::erase_if(list, [&](const TableEntry& other) { return other.table == table && other.key == key; });
   list.push_back({table, key, std::move(entry.value), source});
 }
@@ -65,6 +67,7 @@ std::shared_ptr<DesignFile> TableFile::start(const std::filesystem::path& design
                          "the path of a design file", fmt::format("add design = \"quick.toml\" under [{}]", section));
   auto start = std::make_shared<DesignFile>(design, of_design_);
   for (const TableEntry& entry : fixed_) io::apply_entries(start->schema(), {{entry.key, entry.value}}, path_.string());
+  for (const io::Origin& origin : old_names_) start->schema().note_old_name(origin);
   for (const std::string& text : of_design_) start->schema().set_override(text);  // The command line has the last word.
   return start;
 }

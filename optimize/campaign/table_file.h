@@ -24,7 +24,7 @@ struct TableFileForm {
 /// An entry of a table.
 struct TableEntry {
   std::string table;
-  std::string key;  ///< of the design, without quotes: "layout.diameter"
+  std::string key;  ///< of the design, its name of today, without quotes: "layout.diameter"
   io::Value value;
   std::string source;  ///< the file, or "--set"
 
@@ -55,6 +55,7 @@ class TableFile {
   io::Schema& schema_;
   std::vector<TableEntry> entries_, fixed_;
   std::vector<std::string> of_design_;
+  std::vector<io::Origin> old_names_;  ///< of keys in the tables that have another name today
 };
 
 }  // namespace perfora::optimize

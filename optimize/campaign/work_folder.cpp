@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "io/error.h"
+#include "results/campaign_folder.h"
 
 namespace perfora::optimize {
 namespace {
@@ -49,7 +48,7 @@ void prepare_work_folder(const fs::path& folder, const std::vector<std::string>&
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     refuse(folder, fmt::format("this is a file, and {} needs a folder", with_article(what)),
            "name another one with -o");
-  const std::string there = work_in(folder);
+  const std::string there = results::kind_in_journal(folder);
   if (!there.empty() && there != what)
     refuse(folder, fmt::format("this folder holds {}, not {}", with_article(there), with_article(what)),
            "name another folder with -o");
@@ -67,14 +66,6 @@ void prepare_work_folder(const fs::path& folder, const std::vector<std::string>&
   fs::create_directories(folder, ignored);
   if (ignored)
     refuse(folder, fmt::format("the folder cannot be made ({})", ignored.message()), "name another one with -o");
-}
-
-std::string work_in(const std::filesystem::path& folder) {
-  std::ifstream journal(folder / "journal.jsonl", std::ios::binary);
-  std::string line;
-  std::getline(journal, line);
-  const auto record = nlohmann::json::parse(line.substr(std::min(line.size(), line.find('{'))), nullptr, false);
-  return record.is_object() ? record.value("event", "") : std::string();
 }
 
 }  // namespace perfora::optimize

@@ -15,8 +15,4 @@ namespace perfora::optimize {
 void prepare_work_folder(const std::filesystem::path& folder, const std::vector<std::string>& own_files,
                          const std::string& what, bool force, bool resume);
 
-/// What kind of work keeps its journal in `folder`: the name of its first event; empty without one, or where it cannot
-/// be read.
-std::string work_in(const std::filesystem::path& folder);
-
 }  // namespace perfora::optimize

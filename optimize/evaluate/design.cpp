@@ -2,7 +2,7 @@
 // (design_checks.cpp).
 #include "optimize/evaluate/design.h"
 
-#include "io/journal.h"
+#include "io/toml.h"
 
 namespace perfora::optimize {
 
@@ -56,6 +56,18 @@ DesignFile DesignFile::from_toml(const std::string& text, const std::string& nam
   DesignFile result;
   io::apply_entries(*result.schema_, io::parse_toml(text, name), name);
   return result;
+}
+
+std::string configuration_today(const std::string& stored) {
+  try {
+    return DesignFile::from_toml(stored, "stored configuration").schema().to_toml();
+  } catch (const io::InputError&) {
+    return stored;
+  }
+}
+
+bool same_configuration(const std::string& stored, const DesignFile& design) {
+  return configuration_today(stored) == design.schema().to_toml();
 }
 
 DesignFile DesignFile::clone() const {

@@ -72,6 +72,12 @@ class DesignFile {
   std::filesystem::path path_;
 };
 
+/// `stored`, the resolved configuration in a file or journal, with old names of keys resolved and keys that it lacks at
+/// their defaults; as it is where it holds keys that this program does not know.
+std::string configuration_today(const std::string& stored);
+/// Whether `stored`, the resolved configuration in a file or journal, is that of `design` (configuration_today).
+bool same_configuration(const std::string& stored, const DesignFile& design);
+
 using results::results_version;
 
 }  // namespace perfora::optimize

@@ -240,7 +240,9 @@ io::InputError at_home(const io::InputError& error, const Design& design, const 
 
 std::vector<std::string> DesignFile::validate() const {
   try {
-    return checked(*design_, *schema_);
+    std::vector<std::string> warnings = schema_->notices();
+    for (std::string& warning : checked(*design_, *schema_)) warnings.push_back(std::move(warning));
+    return warnings;
   } catch (const io::InputError& error) {
     throw at_home(error, *design_, path_);
   }

@@ -31,7 +31,7 @@ ElasticFit::ElasticFit(const DesignFile& sample, int replicates, const EvaluateO
     mean_diameter_ = mean_diameter_of(sample, packed.periodic);
     solver::BondNetwork network = solver::make_bond_network(packed.clipped, packed.layout,
                                                             sample.design().solver.material, {}, 1, mean_diameter_);
-    for (const double l : network.rest_length) lengths += l;
+    for (const double l : network.reference_length) lengths += l;
     bonds += network.size();
     samples_.push_back({std::move(network), packed.clipped.size(), packed.clipped.width, packed.clipped.height});
   }

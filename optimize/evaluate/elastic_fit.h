@@ -1,4 +1,4 @@
-// What is here: the elastic half of a calibration: k_t/k_n for a wanted Poisson ratio from the elastic answers of the
+// What is here: the elastic half of a calibration: k_t/k_n for a wanted Poisson ratio from the elastic responses of the
 // samples. What is not: strengths (calibration_search.cpp).
 #pragma once
 

@@ -112,8 +112,8 @@ double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double
   const double circle = std::numbers::pi * radius * radius;
   // Shared area of the solid and the solid moved by h: cell - 2 holes + holes shared with the moved holes.
   const double pairs = circle * cell * (2.0 * solid - 1.0) + shared_hole_area(layout, radius);
-  const double share = pairs / (circle * cell * solid);  // of a full circle that lies in the solid, seen from a disc
-  return std::max(0.0, (density * circle - missing_discs) * share);
+  const double fraction = pairs / (circle * cell * solid);  // of a full circle that lies in the solid, seen from a disc
+  return std::max(0.0, (density * circle - missing_discs) * fraction);
 }
 
 double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solver::BoundaryOptions& boundary,

@@ -19,7 +19,7 @@ struct DesignEstimate {
   double time_step = 0.0;  ///< s
   double rate = 0.0;       ///< 1/s
   double memory_bytes = 0.0, disk_bytes = 0.0, seconds = 0.0;
-  double porosity = 0.0;        ///< share of the perforations
+  double porosity = 0.0;        ///< fraction of the perforations
   double horizon_radius = 0.0;  ///< r_H, m
   geometry::ThinnestWall thinnest_wall;
 };

@@ -102,6 +102,7 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
   request.cancellation = options.cancellation;
   request.progress = options.progress;
   request.provenance = provenance_of(file, seeds, options.command_line);
+  request.in_names_of_today = configuration_today;
   return request;
 }
 
@@ -158,7 +159,7 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
   if (!record.is_object() || record.value("schema", std::string()) != results::evaluation_schema) return std::nullopt;
   Evaluation evaluation = results::evaluation_from_json(record);
   if (evaluation.status == results::RunStatus::stopped) return std::nullopt;
-  if (file.text("/config") != design.schema().to_toml() || evaluation.replicate != replicate ||
+  if (!same_configuration(file.text("/config"), design) || evaluation.replicate != replicate ||
       evaluation.seeds != design.design().seeds.effective(replicate) ||
       record.value("results_version", 0) != results_version)
     throw io::InputError(

@@ -152,7 +152,7 @@ DesignFile material_sample(const DesignFile& design) {
                        options.packing.mean_diameter;
   const auto length = [](double metres) { return io::quantity(metres, io::Dimension::length); };
   if (size < least)
-    throw io::InputError(design.schema().origin("test.size"),
+    throw io::InputError(design.schema().origin("material_test.size"),
                          fmt::format("a sample of {} is too small for discs of {} and their horizon", length(size),
                                      length(options.packing.mean_diameter)),
                          "at least " + length(least), "raise test.size or take smaller discs");
@@ -168,8 +168,8 @@ std::vector<MaterialTestKind> wanted_tests(const DesignFile& design) {
   if (test.shear) kinds.push_back(MaterialTestKind::shear);
   if (test.oedometric) kinds.push_back(MaterialTestKind::oedometric);
   if (kinds.empty())
-    throw io::InputError(design.schema().origin("test.tension"), "no test is requested",
-                         "tension, compression, shear and oedometric of [test] are true or false",
+    throw io::InputError(design.schema().origin("material_test.tension"), "no test is requested",
+                         "tension, compression, shear and oedometric of [material_test] are true or false",
                          "set at least one of them to true");
   return kinds;
 }

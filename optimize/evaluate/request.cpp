@@ -20,10 +20,10 @@ using nlohmann::json;
 
 /// Keys, and sections (with a dot behind), of a design that do not change the path of a run.
 constexpr std::array<std::string_view, 7> beside_the_path = {
-    "measures.",      // read from the finished curve
-    "test.",          // tests of the solid material
-    "loading.until",  // how far: the path up to there is the same
-    "output.frames",  // frames and checkpoints have no side effect;
+    "measures.",       // read from the finished curve
+    "material_test.",  // tests of the solid material
+    "loading.until",   // how far: the path up to there is the same
+    "output.frames",   // frames and checkpoints have no side effect;
     "output.frame_strains",
     "output.checkpoint_interval",  // history_interval sets the segments of the loading and stays in the key
     "seeds.search",                // of the search alone
@@ -49,12 +49,15 @@ std::string Request::key() const {
   const DesignFile file(*design);
   json path = json::object();
   for (const io::Key& one : file.schema().keys())
-    if (!one.at_default() && changes_path(one.full_name())) path[one.full_name()] = io::value_text(one.get());
+    if (!one.at_default() && changes_path(one.full_name()))
+      path[file.schema().first_name(one.full_name())] = io::value_text(one.get());
   return hash({{"path", path}, {"replicate", replicate}});
 }
 
 std::string Request::full_key() const {
-  json all = {{"design", DesignFile(*design).schema().changed_toml()}, {"replicate", replicate}, {"until", until}};
+  json all = {{"design", DesignFile(*design).schema().changed_toml(io::Names::first)},
+              {"replicate", replicate},
+              {"until", until}};
   if (!material_test.empty()) all["material_test"] = material_test;
   return hash(std::move(all));
 }

@@ -97,7 +97,7 @@ json to_json(const CalibrationResult& result) {
           {"found",
            {{"normal_stiffness", positive(result.found.normal_stiffness)},
             {"tangential_stiffness", positive(result.found.tangential_stiffness)},
-            {"critical_normal_stretch", positive(result.found.critical_normal_stretch)},
+            {"critical_normal_stretch", positive(result.found.critical_normal_displacement)},
             {"critical_shear_displacement", positive(result.found.critical_shear_displacement)},
             {"rupture_delay", positive(result.found.rupture_delay)}}},
           {"targets", targets},

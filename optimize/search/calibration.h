@@ -46,8 +46,8 @@ std::string calibration_reference();
 
 /// What a calibration sets.
 struct BondParameters {
-  double normal_stiffness = 0.0, tangential_stiffness = 0.0;                ///< N/m
-  double critical_normal_stretch = 0.0, critical_shear_displacement = 0.0;  ///< m, as in the design file
+  double normal_stiffness = 0.0, tangential_stiffness = 0.0;                     ///< N/m
+  double critical_normal_displacement = 0.0, critical_shear_displacement = 0.0;  ///< m, as in the design file
   double rupture_delay = 0.0;
 };
 

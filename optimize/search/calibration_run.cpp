@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
@@ -76,10 +76,10 @@ class CalibrationRun final : public Campaign {
     return {{"design", calibration_.start->schema().to_toml()}, {"replicates", keys_.replicates}};
   }
   void check_same(const json& head, const std::filesystem::path& journal) const override {
-    json here = identity();
-    here["results_version"] = results_version;
+    const json here = {{"results_version", results_version}, {"replicates", keys_.replicates}};
+    const bool same_design = same_configuration(head.value("design", ""), *calibration_.start);
     for (const char* key : {"results_version", "design", "replicates"})
-      if (head.value(key, json()) != here.at(key))
+      if (here.contains(key) ? head.value(key, json()) != here.at(key) : !same_design)
         throw io::InputError({journal.string(), 0, key},
                              "the calibration of this folder began with another design or other samples", "",
                              "resume with the files it was started with, or name another folder with -o");
@@ -163,7 +163,7 @@ class CalibrationRun final : public Campaign {
   CampaignEnd finished() override {
     using results::RunStatus;
     if (!std::isfinite(basis_.young_modulus))
-      return {RunStatus::failed, "the elastic answer of a sample did not converge"};
+      return {RunStatus::failed, "the elastic response of a sample did not converge"};
     write_material();
     if (search_.status == RunStatus::failed) return {search_.status, search_.reason};
     if (!confirm()) return stopped(nullptr);
@@ -240,7 +240,7 @@ class CalibrationRun final : public Campaign {
 
   /// material.toml and reachable.csv, once thresholds are found.
   void write_material() const {
-    if (!(search_.found.critical_normal_stretch > 0.0)) return;
+    if (!(search_.found.critical_normal_displacement > 0.0)) return;
     io::write_file(options_.folder / "material.toml", design_with(calibration_, search_.found).schema().to_toml());
     std::string csv = "zeta_max,shear_ratio,tensile_strength,compressive_strength,strength_ratio\n";
     for (const StrengthPoint& p : search_.points)

@@ -1,4 +1,4 @@
-// What is here: a calibration carried out in a folder: elastic answer, material tests by workers, confirmation,
+// What is here: a calibration carried out in a folder: elastic response, material tests by workers, confirmation,
 // results. What is not: which points are tested (calibration_search.h), the keys and the record (calibration.h).
 #pragma once
 
@@ -24,8 +24,8 @@ struct CalibrationOptions {
   io::Cancellation cancellation;  ///< requested: tests stop, finished ones are kept
 };
 
-/// k_t/k_n from nu and k_n from E by the elastic answer of the samples (a root and a division); delta_t0/delta_n0 from
-/// the ratio of strengths by a bracketed secant in logarithms at thresholds that give nearly the wanted tensile
+/// k_t/k_n from nu and k_n from E by the elastic response of the samples (a root and a division); delta_t0/delta_n0
+/// from the ratio of strengths by a bracketed secant in logarithms at thresholds that give nearly the wanted tensile
 /// strength, delta_n0 by proportion; then all tests once more with what was found, in this process. Every point of the
 /// search is a line of DIR/journal.jsonl and never tested twice. Writes journal.jsonl, material.toml (the design with
 /// the parameters found), result.json, reachable.csv, confirmation.h5. Throws io::InputError.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "solver/mass.h"
 
@@ -49,7 +49,7 @@ class Search {
   bool scale_thresholds() {
     const solver::MaterialOptions& material = calibration_.start->design().solver.material;
     critical_normal_ = reference_stretch();
-    const double ratio = material.critical_shear_displacement / material.critical_normal_stretch;
+    const double ratio = material.critical_shear_displacement / material.critical_normal_displacement;
     const StrengthPoint* point =
         test(std::clamp(ratio, least_shear_ratio, largest_shear_ratio), material.rupture_delay, false);
     if (point == nullptr) return false;
@@ -65,11 +65,11 @@ class Search {
     for (StrengthPoint& point : search_.points)
       if (point.shear_ratio == shear_ratio && point.rupture_delay == rupture_delay) return &point;
     BondParameters p = search_.found;
-    p.critical_normal_stretch = critical_normal_;
+    p.critical_normal_displacement = critical_normal_;
     p.critical_shear_displacement = shear_ratio * critical_normal_;
     p.rupture_delay = rupture_delay;
     const DesignFile design = design_with(calibration_, p);
-    const std::string key = fmt::format("{:08x}", io::crc32(design.schema().to_toml()));
+    const std::string key = fmt::format("{:08x}", io::crc32(design.schema().to_toml(io::Names::first)));
     const std::optional<SampleStrengths> known = known_(key);
     if (!known) {
       search_.wanted.push_back(
@@ -94,8 +94,8 @@ class Search {
       });
     }
     if (!(keys_.compressive_strength > 0.0)) {
-      const StrengthPoint* only =
-          test(material.critical_shear_displacement / material.critical_normal_stretch, material.rupture_delay, false);
+      const StrengthPoint* only = test(material.critical_shear_displacement / material.critical_normal_displacement,
+                                       material.rupture_delay, false);
       if (only == nullptr) return false;
       if (only->tensile.count > 0) return take(*only);
       search_.status = results::RunStatus::failed;
@@ -172,8 +172,10 @@ class Search {
   /// delta_n0 by proportion: strengths grow with the thresholds as long as strains are small.
   bool take(const StrengthPoint& point) {
     search_.found.rupture_delay = point.rupture_delay;
-    search_.found.critical_normal_stretch = io::rounded(critical_normal_ * keys_.tensile_strength / point.tensile.mean);
-    search_.found.critical_shear_displacement = io::rounded(point.shear_ratio * search_.found.critical_normal_stretch);
+    search_.found.critical_normal_displacement =
+        io::rounded(critical_normal_ * keys_.tensile_strength / point.tensile.mean);
+    search_.found.critical_shear_displacement =
+        io::rounded(point.shear_ratio * search_.found.critical_normal_displacement);
     return true;
   }
 
@@ -203,7 +205,7 @@ DesignFile design_with(const Calibration& calibration, const BondParameters& par
   solver::MaterialOptions& material = design.design().solver.material;
   material.normal_stiffness = parameters.normal_stiffness;
   material.tangential_stiffness = parameters.tangential_stiffness;
-  material.critical_normal_stretch = parameters.critical_normal_stretch;
+  material.critical_normal_displacement = parameters.critical_normal_displacement;
   material.critical_shear_displacement = parameters.critical_shear_displacement;
   material.rupture_delay = parameters.rupture_delay;
   return design;

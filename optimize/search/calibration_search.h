@@ -12,7 +12,7 @@
 
 namespace perfora::optimize {
 
-/// What the elastic answer of the samples has settled before any test.
+/// What the elastic response of the samples has settled before any test.
 struct CalibrationBasis {
   double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< N/m
   double young_modulus = 0.0;                                 ///< two-dimensional, Pa

@@ -15,7 +15,7 @@ namespace perfora::optimize {
 struct ConstraintKeys {
   double thinnest_wall =
       0.0;  ///< m; smallest wall allowed. The horizon of the bonds and layout.minimum_wall hold as well
-  std::vector<double> porosity;  ///< lowest and highest share of the cell that the perforations take; empty: any
+  std::vector<double> porosity;  ///< lowest and highest fraction of the cell that the perforations take; empty: any
 };
 
 void describe(io::Schema& schema, ConstraintKeys& keys);

@@ -25,9 +25,9 @@ struct SearchTask {
 struct SearchStage {
   std::string algorithm;  ///< as Searcher::canonical_name() gives it
   std::vector<SearchTask> tasks;
-  double initial_step = 0.25;        ///< of local algorithms, as a share of the bounds
+  double initial_step = 0.25;        ///< of local algorithms, as a fraction of the bounds
   int population = 0;                ///< 0: the algorithm's own choice
-  double xtol = 0.0;                 ///< as a share of the bounds; 0: off
+  double xtol = 0.0;                 ///< as a fraction of the bounds; 0: off
   double ftol = 0.0;                 ///< on the score; 0: off
   std::optional<double> stop_score;  ///< a search ends at a score as low as this
 };

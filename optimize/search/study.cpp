@@ -24,10 +24,10 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.path("design", keys.design, "Design file the search starts from");
   section.text("algorithm", keys.algorithm, "Derivative-free NLopt algorithm, by NLopt's name");
   section.integer("maxeval", keys.maxeval, Range::non_negative(), "Candidates in total, over all arms");
-  section.text(
-      "allocation", keys.allocation,
-      "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the share of an arm's bounds that keeps the "
-      "constraints) or a list of numbers");
+  section.text("allocation", keys.allocation,
+               "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the fraction of an arm's bounds "
+               "that keeps the "
+               "constraints) or a list of numbers");
   section.integer("replicates", keys.replicates, Range::at_least(1),
                   "Simulations a candidate, each with seeds of its own");
   section.integer("final_replicates", keys.final_replicates, Range::non_negative(),
@@ -36,18 +36,18 @@ void describe(io::Schema& schema, StudyKeys& keys) {
                "Strain to run to; 0: as the design says");
   section.integer("starts", keys.starts, Range::at_least(1), "Arms that differ only in where a local algorithm begins");
   section.real("initial_step", keys.initial_step, Dimension::ratio, Range{0.0, 1.0, true, false},
-               "First step of a local algorithm as a share of the bounds");
+               "First step of a local algorithm as a fraction of the bounds");
   section.integer("population", keys.population, Range::non_negative(),
                   "Population of CRS2, ISRES, ESCH; 0: NLopt's choice");
   section.real("xtol", keys.xtol, Dimension::ratio, Range{0.0, 1.0, false, true},
-               "Stop when steps are smaller; share of the bounds");
+               "Stop when steps are smaller; fraction of the bounds");
   section.real("ftol", keys.ftol, Dimension::none, Range::non_negative(), "Stop when the score changes by less");
   section.real("stop_score", keys.stop_score, Dimension::none, Range::non_negative(),
                "An arm ends at a score as low as this; 0: never");
   section.text("refine", keys.refine, "Local algorithm of a second stage from the best candidate; empty: none");
   section.integer("refine_maxeval", keys.refine_maxeval, Range::non_negative(), "Candidates of the second stage");
   section.real("refine_step", keys.refine_step, Dimension::ratio, Range{0.0, 1.0, true, false},
-               "First step of the second stage as a share of the bounds");
+               "First step of the second stage as a fraction of the bounds");
   section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
 }
 
@@ -170,7 +170,8 @@ struct Reader {
       warnings.push_back(std::move(told));
     if (study.keys.replicates == 1)
       warnings.push_back(
-          "one replicate a candidate: the score holds the luck of one packing; final_replicates tells how much of the "
+          "one replicate a candidate: the score holds the scatter from packing to packing; final_replicates tells how "
+          "much of the "
           "gain is real");
     if (study.keys.final_replicates < 2)
       warnings.push_back("final_replicates below 2: nothing will say whether the gain exceeds the noise");

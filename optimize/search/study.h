@@ -29,14 +29,14 @@ struct StudyKeys {
   int final_replicates = 5;    ///< fresh seeds on which best and start are run again; 0: none
   double until = 0.0;          ///< engineering strain; 0: as the design says
   int starts = 1;              ///< arms that differ only in where a local algorithm begins
-  double initial_step = 0.25;  ///< of local algorithms, as a share of the bounds
+  double initial_step = 0.25;  ///< of local algorithms, as a fraction of the bounds
   int population = 0;          ///< 0: NLopt's own
-  double xtol = 0.0;           ///< as a share of the bounds
+  double xtol = 0.0;           ///< as a fraction of the bounds
   double ftol = 0.0;           ///< on the score
   double stop_score = 0.0;     ///< an arm ends at a score as low as this; 0: never
   std::string refine;          ///< local algorithm of a second stage that begins at the best candidate; "": none
   int refine_maxeval = 0;      ///< candidates of the second stage, beside maxeval
-  double refine_step = 0.05;   ///< its initial step, as a share of the bounds
+  double refine_step = 0.05;   ///< its initial step, as a fraction of the bounds
   int workers = 0;             ///< evaluations at once; 0: one a core. The result does not depend on it
 };
 

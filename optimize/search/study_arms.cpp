@@ -7,12 +7,13 @@
 #include <numeric>
 #include <sstream>
 
-#include "io/journal.h"
+#include "io/files.h"
+#include "io/units.h"
 
 namespace perfora::optimize {
 namespace {
 
-/// Points on which the share of an arm's bounds that keeps the constraints is measured.
+/// Points on which the fraction of an arm's bounds that keeps the constraints is measured.
 constexpr int samples = 64;
 /// Points on which two arms are held against each other: those that differ have other holes at any of them.
 constexpr int compared = 3;
@@ -167,7 +168,7 @@ std::vector<double> first_point(const Study& study, int start) {
 }
 
 /// Share of an arm's bounds that keeps the constraints; negative when the layout cannot be laid at any sampled point.
-double feasible_share(const Study& study, const Arm& arm) {
+double feasible_fraction(const Study& study, const Arm& arm) {
   int laid = 0, kept = 0;
   for (int k = 0; k < samples; ++k) {
     const auto values = study.values_at(halton_point(k, static_cast<int>(study.variables.size())));
@@ -222,26 +223,26 @@ void drop_repeated(Study& study) {
 
 std::vector<double> drop_impossible(Study& study) {
   std::vector<Arm> possible;
-  std::vector<double> shares;
+  std::vector<double> fractions;
   for (const Arm& arm : study.arms) {
-    const double share = feasible_share(study, arm);
-    if (share < 0.0) {
+    const double fraction = feasible_fraction(study, arm);
+    if (fraction < 0.0) {
       const auto middle = study.values_at(std::vector<double>(study.variables.size(), 0.5));
       study.warnings.push_back(
           fmt::format("arm {} is left out: {}", arm.name, measure_layout(study.design_at(&arm, middle)).problem));
       continue;
     }
-    if (share == 0.0)
+    if (fraction == 0.0)
       study.warnings.push_back(
           fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
     possible.push_back(arm);
-    shares.push_back(share);
+    fractions.push_back(fraction);
   }
   if (possible.empty())
     throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "",
                          "see the layouts of the design");
   study.arms = std::move(possible);
-  return shares;
+  return fractions;
 }
 
 std::vector<int> listed(const Study& study, const io::Origin& origin) {
@@ -266,12 +267,12 @@ std::vector<int> listed(const Study& study, const io::Origin& origin) {
   return counts;
 }
 
-void allocate(Study& study, const std::vector<double>& shares, const io::Origin& origin) {
+void allocate(Study& study, const std::vector<double>& fractions, const io::Origin& origin) {
   std::vector<int> counts;
   if (study.keys.allocation == "equal")
     counts = share_out(study.keys.maxeval, std::vector<double>(study.arms.size(), 1.0));
   else if (study.keys.allocation == "proportional")
-    counts = share_out(study.keys.maxeval, shares);
+    counts = share_out(study.keys.maxeval, fractions);
   else
     counts = listed(study, origin);
   if (study.keys.allocation == "equal" && study.keys.maxeval < static_cast<int>(study.arms.size()))
@@ -314,8 +315,8 @@ void make_arms(Study& study, const ArmEntries& entries, const io::Origin& alloca
     throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms),
                          "", "narrow them");
   drop_repeated(study);
-  const auto shares = drop_impossible(study);
-  allocate(study, shares, allocation);
+  const auto fractions = drop_impossible(study);
+  allocate(study, fractions, allocation);
 }
 
 std::vector<double> halton_point(int index, int dimension) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/csv.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_record.h"

@@ -52,6 +52,13 @@ json StudyRun::identity() const {
 }
 
 /// A key that the program had not learned when the head was written is the same at its default.
+/// Of a key in the header of a journal: "study.maxeval", "design.layout.diameter", "variables.layout.diameter".
+std::string StudyRun::name_today(const std::string& key) const {
+  for (const std::string table : {"design.", "variables."})
+    if (key.starts_with(table)) return table + study_.start->schema().name_today(key.substr(table.size()));
+  return key;
+}
+
 void StudyRun::check_same(const json& head, const std::filesystem::path& journal) const {
   auto refuse = [&](const std::string& key, const std::string& old_value, const std::string& new_value) {
     throw io::InputError({journal.string(), 0, key},
@@ -67,7 +74,9 @@ void StudyRun::check_same(const json& head, const std::filesystem::path& journal
   };
   if (head.at("results_version") != results_version)
     refuse("results_version", text_of(head, "results_version"), std::to_string(results_version));
-  const json there = head.at("resolved"), here = identity().at("resolved");
+  json there = json::object();
+  for (const auto& [key, value] : head.at("resolved").items()) there[name_today(key)] = value;
+  json here = identity().at("resolved");
   std::set<std::string> keys;
   for (const json* object : {&there, &here})
     for (const auto& entry : object->items()) keys.insert(entry.key());

@@ -31,6 +31,7 @@ class StudyRun final : public Campaign {
   std::string kind() const override { return "study"; }
   std::vector<std::string> own_files() const override;
   nlohmann::json identity() const override;
+  std::string name_today(const std::string& key) const;
   void check_same(const nlohmann::json& head, const std::filesystem::path& journal) const override;
   std::vector<Asked> pending(const Answers& answers) override;
   std::string on_answer(const Asked& asked, const Evaluation& evaluation) override;

@@ -32,7 +32,7 @@ struct LinearBonds {
 
 double mean_half_length(const BondNetwork& network, const std::vector<std::int64_t>& ids) {
   double sum = 0.0;
-  for (const std::int64_t id : ids) sum += network.rest_length[static_cast<std::size_t>(id)];
+  for (const std::int64_t id : ids) sum += network.reference_length[static_cast<std::size_t>(id)];
   return ids.empty() ? 1.0 : 0.5 * sum / static_cast<double>(ids.size());
 }
 
@@ -52,7 +52,7 @@ LinearBonds linearise(const BondNetwork& network, std::int32_t discs, double k_n
     const auto id = static_cast<std::size_t>(bond);
     const int i = 3 * network.i[id], j = 3 * network.j[id];
     const int normal = static_cast<int>(row), shear = normal + 1;
-    const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.rest_length[id];
+    const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.reference_length[id];
     const double tx = -ny, ty = nx, lever = -0.5 * l / bonds.rotation_length;
     entries.insert(entries.end(), {{normal, i, -nx}, {normal, i + 1, -ny}, {normal, j, nx}, {normal, j + 1, ny}});
     entries.insert(entries.end(), {{shear, i, -tx}, {shear, i + 1, -ty}, {shear, i + 2, lever}});
@@ -87,8 +87,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const BondNetwork& network, st
   std::vector<std::vector<Neighbour>> neighbours(static_cast<std::size_t>(discs));
   for (const std::int64_t bond : ids) {
     const auto id = static_cast<std::size_t>(bond);
-    const double x = network.rest_length[id] * network.direction_x[id],
-                 y = network.rest_length[id] * network.direction_y[id];
+    const double x = network.reference_length[id] * network.direction_x[id],
+                 y = network.reference_length[id] * network.direction_y[id];
     neighbours[static_cast<std::size_t>(network.i[id])].push_back({network.j[id], x, y});
     neighbours[static_cast<std::size_t>(network.j[id])].push_back({network.i[id], -x, -y});
   }
@@ -160,9 +160,9 @@ class TwoLevels {
     SparseColumns coarse = motions.transpose() * moved;
     // Fragments and the whole block move freely: a small share on the diagonal keeps the factors finite. The right-hand
     // sides have no part in those motions.
-    constexpr double share = 1e-8;
-    const double least = share * coarse.diagonal().maxCoeff() + std::numeric_limits<double>::min();
-    for (Index k = 0; k < coarse.rows(); ++k) coarse.coeffRef(k, k) += std::max(share * coarse.coeff(k, k), least);
+    constexpr double fraction = 1e-8;
+    const double least = fraction * coarse.diagonal().maxCoeff() + std::numeric_limits<double>::min();
+    for (Index k = 0; k < coarse.rows(); ++k) coarse.coeffRef(k, k) += std::max(fraction * coarse.coeff(k, k), least);
     factors_.compute(coarse);
   }
 
@@ -310,7 +310,7 @@ BondAnswer bond_answer(const BondNetwork& network, std::int64_t bond, const Elas
   const std::vector<double>& u = response.displacement[static_cast<std::size_t>(strain)];
   const double* const ui = &u[3 * static_cast<std::size_t>(network.i[id])];
   const double* const uj = &u[3 * static_cast<std::size_t>(network.j[id])];
-  const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.rest_length[id];
+  const double nx = network.direction_x[id], ny = network.direction_y[id], l = network.reference_length[id];
   double dx = uj[0] - ui[0], dy = uj[1] - ui[1];
   if (strain == UnitStrain::xx) dx += l * nx;
   if (strain == UnitStrain::yy) dy += l * ny;

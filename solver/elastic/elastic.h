@@ -1,4 +1,4 @@
-// What is here: the elastic answer of a bonded block: its homogenised stiffness and how every disc moves under a unit
+// What is here: the elastic response of a bonded block: its homogenised stiffness and how every disc moves under a unit
 // strain, from one linear solution instead of a run. What is not: first yield (first_yield.h), breaking, contacts,
 // time. The stiffness matrix shares no code with the force kernels, so that each checks the other.
 #pragma once

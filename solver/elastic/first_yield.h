@@ -1,4 +1,4 @@
-// What is here: where a block yields first under oedometric compression, from its elastic answer. What is not: the
+// What is here: where a block yields first under oedometric compression, from its elastic response. What is not: the
 // answer itself (elastic.h), what follows the first yield (run.h).
 #pragma once
 

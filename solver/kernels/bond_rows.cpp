@@ -45,7 +45,7 @@ void BondRows::clear(std::int64_t slot, std::int32_t own) {
   const std::int32_t offset = record_offset(own);
   std::memcpy(field(slot, neighbour_offset), &offset, sizeof offset);
   threshold_[at(slot)] = 0;
-  rest_fraction_[at(slot)] = 0;
+  length_residual_[at(slot)] = 0;
   damage_[at(slot)] = 0.0f;
   bond_[at(slot)] = -1;
 }
@@ -60,19 +60,19 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
   std::vector<std::int32_t> degree(at(discs), 0);
   for (std::int64_t b = 0; b < network.size(); ++b) {
     weakest = std::min(weakest, network.strength[at(b)]);
-    longest = std::max(longest, network.rest_length[at(b)] / unit);
+    longest = std::max(longest, network.reference_length[at(b)] / unit);
     if (network.state[at(b)] == BondState::compacted) continue;
     ++degree[at(network.i[at(b)])];
     ++degree[at(network.j[at(b)])];
   }
   threshold_unit_ = 1.0 / (weakest * largest_stored);
-  rest_fraction_unit_ = longest * half_last_place / largest_fraction;
+  length_residual_unit_ = longest * half_last_place / largest_fraction;
 
   rows_.build(degree);
   const std::size_t groups = rows_.groups(), slots = groups * at(lanes_);
   groups_.resize(groups * group_bytes());
   threshold_.resize(slots);
-  rest_fraction_.resize(slots);
+  length_residual_.resize(slots);
   damage_.resize(slots);
   bond_.resize(slots);
   damaged_.assign(groups, 0);
@@ -89,11 +89,11 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
       const double sign = forward ? 1.0 : -1.0;
       *field(slot, e0x) = static_cast<float>(sign * network.direction_x[at(b)]);
       *field(slot, e0y) = static_cast<float>(sign * network.direction_y[at(b)]);
-      const double rest = network.rest_length[at(b)] / unit;
+      const double rest = network.reference_length[at(b)] / unit;
       const auto held = static_cast<float>(rest);
       *field(slot, l0) = held;
-      rest_fraction_[at(slot)] =
-          static_cast<std::int8_t>(std::lround((rest - static_cast<double>(held)) / rest_fraction_unit_));
+      length_residual_[at(slot)] =
+          static_cast<std::int8_t>(std::lround((rest - static_cast<double>(held)) / length_residual_unit_));
       const std::int32_t offset = record_offset(other);
       std::memcpy(field(slot, neighbour_offset), &offset, sizeof offset);
       bond_[at(slot)] = static_cast<std::int32_t>(b);
@@ -103,13 +103,13 @@ void BondRows::build(const BondNetwork& network, std::int32_t discs, const BondL
   }
 }
 
-void BondRows::aim(BondSweep& sweep, std::int32_t chunk) const {
-  sweep.groups = groups_.data();
-  sweep.threshold = threshold_.data();
-  sweep.rest_fraction = rest_fraction_.data();
-  sweep.damage = damage_.data();
-  sweep.damaged = damaged_.data();
-  rows_.aim(sweep, chunk);
+void BondRows::aim(BondTask& task, std::int32_t chunk) const {
+  task.groups = groups_.data();
+  task.threshold = threshold_.data();
+  task.length_residual = length_residual_.data();
+  task.damage = damage_.data();
+  task.damaged = damaged_.data();
+  rows_.aim(task, chunk);
 }
 
 }  // namespace perfora::solver

@@ -1,5 +1,5 @@
 // What is here: the bonds of all discs as the vector kernels read them, in sliced rows. What is not: the slicing
-// (sliced_rows.h), the loop over them (bond_sweep.h), the law.
+// (sliced_rows.h), the loop over them (bond_kernel.h), the law.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class BondRows {
   /// empty place.
   void build(const BondNetwork& network, std::int32_t discs, const BondLaw& law, double unit);
 
-  /// Points the layout's part of a sweep at the rows of chunk `chunk`.
-  void aim(BondSweep& sweep, std::int32_t chunk) const;
+  /// Points the layout's part of a kernel task at the rows of chunk `chunk`.
+  void aim(BondTask& task, std::int32_t chunk) const;
 
   std::int32_t bond(std::int64_t slot) const { return bond_[static_cast<std::size_t>(slot)]; }
   std::int32_t neighbour(std::int64_t slot) const;
@@ -36,7 +36,7 @@ class BondRows {
   /// Unit of the stored thresholds.
   double threshold_unit() const { return threshold_unit_; }
   /// Unit of the part of the rest lengths that floats do not hold, in the unit of length.
-  double rest_fraction_unit() const { return rest_fraction_unit_; }
+  double length_residual_unit() const { return length_residual_unit_; }
   /// Places over bond ends: 1 without padding.
   double padding() const;
 
@@ -47,10 +47,10 @@ class BondRows {
 
   int lanes_;
   SlicedRows rows_;
-  double threshold_unit_ = 1.0, rest_fraction_unit_ = 0.0;
+  double threshold_unit_ = 1.0, length_residual_unit_ = 0.0;
   std::vector<char, CacheLineAllocator<char>> groups_;
   std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> threshold_;
-  std::vector<std::int8_t, CacheLineAllocator<std::int8_t>> rest_fraction_;
+  std::vector<std::int8_t, CacheLineAllocator<std::int8_t>> length_residual_;
   std::vector<float, CacheLineAllocator<float>> damage_;
   std::vector<std::uint8_t> damaged_;  // per group
   std::vector<std::int32_t> bond_;     // id, -1: empty

@@ -10,7 +10,7 @@ std::size_t at(std::int64_t k) {
 
 }  // namespace
 
-void ContactRows::build(const NearPairs& pairs, const DiscState& discs, const ContactLaw& law) {
+void ContactRows::build(const NeighbourList& pairs, const DiscState& discs, const ContactLaw& law) {
   const std::int32_t n = discs.size();
   std::vector<std::int32_t> length(at(n));
   for (std::int32_t i = 0; i < n; ++i) length[at(i)] = pairs.row_end(i) - pairs.row_begin(i);
@@ -21,7 +21,7 @@ void ContactRows::build(const NearPairs& pairs, const DiscState& discs, const Co
       place_[at(pairs.row_begin(i) + k)] = static_cast<std::int32_t>(rows_.place(i, k));
   const std::size_t groups = rows_.groups(), places = groups * at(lanes_);
   neighbour_.resize(places);
-  for (auto* field : {&touch_, &damping_, &shear_, &viscous_force_}) field->assign(places, 0.0f);
+  for (auto* field : {&contact_distance_, &damping_, &shear_, &viscous_force_}) field->assign(places, 0.0f);
   active_.assign(groups, 0);
   slice_active_.assign(rows_.slices(), 0);
   rows_.for_each_place([&](std::int64_t place, std::int32_t disc) { neighbour_[at(place)] = record_offset(disc); });
@@ -30,13 +30,13 @@ void ContactRows::build(const NearPairs& pairs, const DiscState& discs, const Co
       if (pairs.slots()[at(pair)].bonded == 0) open(pairs, i, pair, discs, law);
 }
 
-void ContactRows::open(const NearPairs& pairs, std::int32_t i, std::int32_t pair, const DiscState& discs,
+void ContactRows::open(const NeighbourList& pairs, std::int32_t i, std::int32_t pair, const DiscState& discs,
                        const ContactLaw& law) {
-  const NearSlot& slot = pairs.slots()[at(pair)];
+  const NeighbourSlot& slot = pairs.slots()[at(pair)];
   const std::size_t place = at(place_[at(pair)]), j = at(slot.neighbour);
   const double effective_mass = discs.mass[at(i)] * discs.mass[j] / (discs.mass[at(i)] + discs.mass[j]);
   neighbour_[place] = record_offset(slot.neighbour);
-  touch_[place] = static_cast<float>(slot.touch);
+  contact_distance_[place] = static_cast<float>(slot.contact_distance);
   damping_[place] = static_cast<float>(contact_damping(law, effective_mass));
   shear_[place] = static_cast<float>(slot.history.shear);
   viscous_force_[place] = static_cast<float>(slot.history.viscous_force);
@@ -45,25 +45,25 @@ void ContactRows::open(const NearPairs& pairs, std::int32_t i, std::int32_t pair
   active = 1;
 }
 
-void ContactRows::collect(NearPairs& pairs) const {
+void ContactRows::export_history(NeighbourList& pairs) const {
   for (std::size_t pair = 0; pair < place_.size(); ++pair) {
-    NearSlot& slot = pairs.slots()[pair];
+    NeighbourSlot& slot = pairs.slots()[pair];
     if (slot.bonded != 0) continue;
     const std::size_t place = at(place_[pair]);
-    slot.touch = static_cast<double>(touch_[place]);
+    slot.contact_distance = static_cast<double>(contact_distance_[place]);
     slot.history = {static_cast<double>(shear_[place]), static_cast<double>(viscous_force_[place])};
   }
 }
 
-void ContactRows::aim(ContactSweep& sweep, std::int32_t chunk) {
-  sweep.neighbour = neighbour_.data();
-  sweep.touch = touch_.data();
-  sweep.damping = damping_.data();
-  sweep.shear = shear_.data();
-  sweep.viscous_force = viscous_force_.data();
-  sweep.active = active_.data();
-  sweep.slice_active = slice_active_.data();
-  rows_.aim(sweep, chunk);
+void ContactRows::aim(ContactTask& task, std::int32_t chunk) {
+  task.neighbour = neighbour_.data();
+  task.contact_distance = contact_distance_.data();
+  task.damping = damping_.data();
+  task.shear = shear_.data();
+  task.viscous_force = viscous_force_.data();
+  task.active = active_.data();
+  task.slice_active = slice_active_.data();
+  rows_.aim(task, chunk);
 }
 
 }  // namespace perfora::solver

@@ -1,5 +1,5 @@
 // What is here: the near pairs of all discs as the vector kernels read them, in sliced rows with the contacts' history.
-// What is not: the slicing (sliced_rows.h), which pairs are near (near_pairs.h).
+// What is not: the slicing (sliced_rows.h), which pairs are near (neighbour_list.h).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "solver/kernels/sliced_rows.h"
 #include "solver/kernels/vector_kernels.h"
-#include "solver/near_pairs.h"
+#include "solver/neighbour_list.h"
 
 namespace perfora::solver {
 
@@ -17,14 +17,15 @@ class ContactRows {
  public:
   explicit ContactRows(int lanes) : lanes_(lanes), rows_(lanes) {}
 
-  void build(const NearPairs& pairs, const DiscState& discs, const ContactLaw& law);
+  void build(const NeighbourList& pairs, const DiscState& discs, const ContactLaw& law);
   /// Histories and touching distances back into the near pairs.
-  void collect(NearPairs& pairs) const;
+  void export_history(NeighbourList& pairs) const;
   /// Fills the place of near pair `pair` (its index in the slots), whose bond has just broken.
-  void open(const NearPairs& pairs, std::int32_t i, std::int32_t pair, const DiscState& discs, const ContactLaw& law);
+  void open(const NeighbourList& pairs, std::int32_t i, std::int32_t pair, const DiscState& discs,
+            const ContactLaw& law);
 
-  /// Points the layout's part of a sweep at the rows of chunk `chunk`.
-  void aim(ContactSweep& sweep, std::int32_t chunk);
+  /// Points the layout's part of a kernel task at the rows of chunk `chunk`.
+  void aim(ContactTask& task, std::int32_t chunk);
 
  private:
   template <class T>
@@ -33,7 +34,7 @@ class ContactRows {
   int lanes_;
   SlicedRows rows_;
   Aligned<std::int32_t> neighbour_;
-  Aligned<float> touch_, damping_, shear_, viscous_force_;
+  Aligned<float> contact_distance_, damping_, shear_, viscous_force_;
   std::vector<std::int32_t> place_;         // of each near pair
   std::vector<std::uint8_t> active_;        // per group: some place is filled
   std::vector<std::int32_t> slice_active_;  // per slice: groups with a filled place

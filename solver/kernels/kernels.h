@@ -11,7 +11,7 @@
 #include "solver/bond_network.h"
 #include "solver/cell.h"
 #include "solver/laws.h"
-#include "solver/near_pairs.h"
+#include "solver/neighbour_list.h"
 #include "solver/options.h"
 #include "solver/state.h"
 
@@ -22,7 +22,7 @@ namespace perfora::solver {
 struct ForceStep {
   DiscState& discs;
   BondNetwork& network;
-  NearPairs& near_pairs;
+  NeighbourList& neighbour_list;
   const CellMatrix& cell;         ///< now
   const CellMatrix& cell_before;  ///< at the start of the drift
   VelocityGradient gradient;      ///< L of the drift
@@ -40,9 +40,9 @@ class ForceBackend {
   /// run it goes on from.
   virtual void load(const BondNetwork& network, const DiscState& discs, const CellMatrix& start) = 0;
   /// Near pairs have been listed anew or restored.
-  virtual void list(const NearPairs& near_pairs, const DiscState& discs) = 0;
+  virtual void set_neighbours(const NeighbourList& neighbour_list, const DiscState& discs) = 0;
   /// Brings the histories of the contacts in the near pairs up to date: to be called before anybody reads them.
-  virtual void collect(NearPairs& near_pairs) const = 0;
+  virtual void export_contact_history(NeighbourList& neighbour_list) const = 0;
   virtual StepSums forces(ForceStep& step) = 0;
   /// Instruction set it runs with, for the record.
   virtual std::string simd() const = 0;
@@ -61,7 +61,7 @@ inline BondKinematics kinematics_of(const DiscState& discs, std::int32_t i, std:
                                     double e0x, double e0y, double l0) {
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
   const double dx = reduced(discs.sx[b] - discs.sx[a]), dy = reduced(discs.sy[b] - discs.sy[a]);
-  const CosineSine half = cosine_sine(discs.turn[a] + discs.turn[b]);
+  const CosineSine half = cosine_sine(discs.half_angle[a] + discs.half_angle[b]);
   return bond_kinematics(cell.xx * dx + cell.xy * dy, cell.yy * dy, e0x, e0y, l0, half.c, half.s);
 }
 
@@ -71,7 +71,7 @@ inline BondKinematics kinematics_before(const DiscState& discs, std::int32_t i, 
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
   const double dx = reduced(discs.sx_before[b] - discs.sx_before[a]),
                dy = reduced(discs.sy_before[b] - discs.sy_before[a]);
-  const CosineSine half = cosine_sine(discs.turn_before[a] + discs.turn_before[b]);
+  const CosineSine half = cosine_sine(discs.half_angle_before[a] + discs.half_angle_before[b]);
   return bond_kinematics(cell.xx * dx + cell.xy * dy, cell.yy * dy, e0x, e0y, l0, half.c, half.s);
 }
 

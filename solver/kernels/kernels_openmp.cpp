@@ -27,8 +27,8 @@ struct ChunkTask {
   std::int32_t* broken;  ///< room for the bonds whose lower disc is in this chunk
   std::int32_t broken_count;
   StepSums sums;
-  BondSweep sweep;
-  ContactSweep contact_sweep;
+  BondTask bonds;
+  ContactTask contacts;
 };
 
 /// Off the vector path: one end of a bond near its yield surface (or, with damage in compression, damaged). Updates D,
@@ -41,29 +41,29 @@ BondEndForce bond_end(void* context, std::int32_t i, std::int64_t slot) {
   const DiscState& discs = step.discs;
   const std::int32_t j = task.rows->neighbour(slot), id = task.rows->bond(slot);
   const double sign = i < j ? 1.0 : -1.0;
-  const double l0 = step.network.rest_length[at(id)], e0x = sign * step.network.direction_x[at(id)],
+  const double l0 = step.network.reference_length[at(id)], e0x = sign * step.network.direction_x[at(id)],
                e0y = sign * step.network.direction_y[at(id)];
   const BondKinematics k = kinematics_of(discs, i, j, step.cell, e0x, e0y, l0);
-  const double contact_distance = discs.radius[at(i)] + discs.radius[at(j)];
-  const double touch = std::min(contact_distance, l0);
-  const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
+  const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
+  const double contact_distance = std::min(sum_radii, l0);
+  const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, contact_distance - k.length)};
   const double old_damage = task.rows->damage(slot);
   const double strength = step.network.strength[at(id)];
   const double damage =
       static_cast<double>(static_cast<float>(updated_damage(law, k.delta_n, k.delta_t, strength, old_damage)));
   if (damage > old_damage) {
     const BondKinematics old = kinematics_before(discs, i, j, step.cell_before, e0x, e0y, l0);
-    const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
+    const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, contact_distance - old.length)};
     double dissipated = damageable_energy(law, before, now) * (damage - old_damage);
     if (i < j) step.network.damage[at(id)] = damage;
     if (damage >= 1.0) {
-      dissipated += compression_release(law, before, now, l0 <= contact_distance);
+      dissipated += compression_release(law, before, now, l0 <= sum_radii);
       if (i < j) {
         step.network.state[at(id)] = BondState::broken;
         task.broken[task.broken_count++] = id;
       }
-      const std::int32_t pair = step.near_pairs.release(i, j, touch);
-      if (pair >= 0) task.contact_rows->open(step.near_pairs, i, pair, discs, *task.contact);
+      const std::int32_t pair = step.neighbour_list.release(i, j, contact_distance);
+      if (pair >= 0) task.contact_rows->open(step.neighbour_list, i, pair, discs, *task.contact);
       task.rows->clear(slot, i);
     } else {
       task.rows->set_damage(slot, damage, 1.0 / (strength * zeta_of_damage(law, damage)));
@@ -114,20 +114,21 @@ class OpenmpBackend final : public ForceBackend {
       task.rows = &rows_;
       task.contact_rows = &contact_rows_;
       task.broken = broken_.data() + lower[at(c * chunk_discs)];
-      rows_.aim(task.sweep, c);
-      task.sweep.twice_alpha = bond_.twice_alpha;
-      task.sweep.context = &task;
-      task.sweep.bond_end = bond_end;
+      rows_.aim(task.bonds, c);
+      task.bonds.twice_alpha = bond_.twice_alpha;
+      task.bonds.context = &task;
+      task.bonds.bond_end = bond_end;
     }
   }
 
-  void list(const NearPairs& near_pairs, const DiscState& discs) override {
-    contact_rows_.build(near_pairs, discs, contact_);
-    for (std::size_t c = 0; c < tasks_.size(); ++c)
-      contact_rows_.aim(tasks_[c].contact_sweep, static_cast<std::int32_t>(c));
+  void set_neighbours(const NeighbourList& neighbour_list, const DiscState& discs) override {
+    contact_rows_.build(neighbour_list, discs, contact_);
+    for (std::size_t c = 0; c < tasks_.size(); ++c) contact_rows_.aim(tasks_[c].contacts, static_cast<std::int32_t>(c));
   }
 
-  void collect(NearPairs& near_pairs) const override { contact_rows_.collect(near_pairs); }
+  void export_contact_history(NeighbourList& neighbour_list) const override {
+    contact_rows_.export_history(neighbour_list);
+  }
 
   StepSums forces(ForceStep& step) override {
     const bool weak = bond_.damage_in_compression == DamageInCompression::full;
@@ -142,17 +143,17 @@ class OpenmpBackend final : public ForceBackend {
       task.step = &step;
       task.broken_count = 0;
       task.sums = {};
-      task.sweep.record = step.discs.record.data();
-      task.sweep.fx = step.discs.fx.data();
-      task.sweep.fy = step.discs.fy.data();
-      task.sweep.torque = step.discs.torque.data();
-      scale(task.sweep, step.cell, unit);
-      kernel(task.sweep);
-      // Each bond was seen from both ends, with the force on i: minus half of it is its share of sum F_j r.
-      const Virial& v = task.sweep.virial;
+      task.bonds.record = step.discs.record.data();
+      task.bonds.fx = step.discs.fx.data();
+      task.bonds.fy = step.discs.fy.data();
+      task.bonds.torque = step.discs.torque.data();
+      scale(task.bonds, step.cell, unit);
+      kernel(task.bonds);
+      // Each bond was seen from both ends, with the force on i: minus half of it is its fraction of sum F_j r.
+      const Virial& v = task.bonds.virial;
       task.sums.virial = {-0.5 * v.xx, -0.5 * v.xy, -0.5 * v.yx, -0.5 * v.yy};
-      scale(task.contact_sweep, step);
-      kernels_.contacts(task.contact_sweep);
+      scale(task.contacts, step);
+      kernels_.contacts(task.contacts);
       add_contacts(task);
     }
     StepSums sums;
@@ -173,44 +174,44 @@ class OpenmpBackend final : public ForceBackend {
     return std::ldexp(cell.xx, -32 - discs.position_shift);
   }
 
-  void scale(BondSweep& sweep, const CellMatrix& cell, double unit) const {
-    sweep.unit = unit;
-    sweep.lean = static_cast<float>(cell.xy / cell.xx);
-    sweep.height = static_cast<float>(cell.yy / cell.xx);
+  void scale(BondTask& task, const CellMatrix& cell, double unit) const {
+    task.unit = unit;
+    task.cell_shear = static_cast<float>(cell.xy / cell.xx);
+    task.height = static_cast<float>(cell.yy / cell.xx);
     const double g_yy = (cell.xy * cell.xy + cell.yy * cell.yy) / (cell.xx * cell.xx);
-    sweep.twice_g_xy = static_cast<float>(2.0 * cell.xy / cell.xx);
-    sweep.g_yy = static_cast<float>(g_yy);
-    sweep.g_yy_rest = static_cast<float>(g_yy - static_cast<double>(sweep.g_yy));
-    sweep.rest_stretch = static_cast<float>(start_unit_ / unit);
-    sweep.rest_fraction_unit = static_cast<float>(rows_.rest_fraction_unit() * start_unit_ / unit);
-    sweep.normal_stiffness = static_cast<float>(bond_.normal_stiffness * unit);
-    sweep.tangential_stiffness = static_cast<float>(bond_.tangential_stiffness * unit);
-    sweep.normal_share = static_cast<float>(bond_.inverse_critical_normal * rows_.threshold_unit() * unit);
-    sweep.shear_share = static_cast<float>(bond_.inverse_critical_shear * rows_.threshold_unit() * unit);
+    task.twice_g_xy = static_cast<float>(2.0 * cell.xy / cell.xx);
+    task.g_yy = static_cast<float>(g_yy);
+    task.g_yy_residual = static_cast<float>(g_yy - static_cast<double>(task.g_yy));
+    task.reference_scale = static_cast<float>(start_unit_ / unit);
+    task.length_residual_unit = static_cast<float>(rows_.length_residual_unit() * start_unit_ / unit);
+    task.normal_stiffness = static_cast<float>(bond_.normal_stiffness * unit);
+    task.tangential_stiffness = static_cast<float>(bond_.tangential_stiffness * unit);
+    task.normal_scale = static_cast<float>(bond_.inverse_critical_normal * rows_.threshold_unit() * unit);
+    task.shear_scale = static_cast<float>(bond_.inverse_critical_shear * rows_.threshold_unit() * unit);
   }
 
-  void scale(ContactSweep& sweep, const ForceStep& step) const {
+  void scale(ContactTask& task, const ForceStep& step) const {
     const double unit = std::ldexp(1.0, -32 - step.discs.position_shift);
-    sweep.record = step.discs.record.data();
-    sweep.motion = step.discs.motion.data();
-    sweep.fx = step.discs.fx.data();
-    sweep.fy = step.discs.fy.data();
-    sweep.torque = step.discs.torque.data();
-    sweep.step_xx = static_cast<float>(step.cell.xx * unit);
-    sweep.step_xy = static_cast<float>(step.cell.xy * unit);
-    sweep.step_yy = static_cast<float>(step.cell.yy * unit);
-    sweep.gradient_xx = static_cast<float>(step.gradient.xx);
-    sweep.gradient_xy = static_cast<float>(step.gradient.xy);
-    sweep.gradient_yy = static_cast<float>(step.gradient.yy);
-    sweep.normal_stiffness = static_cast<float>(contact_.normal_stiffness);
-    sweep.tangential_stiffness = static_cast<float>(contact_.tangential_stiffness);
-    sweep.friction_coefficient = static_cast<float>(contact_.friction_coefficient);
-    sweep.dt = static_cast<float>(step.dt);
+    task.record = step.discs.record.data();
+    task.motion = step.discs.motion.data();
+    task.fx = step.discs.fx.data();
+    task.fy = step.discs.fy.data();
+    task.torque = step.discs.torque.data();
+    task.step_xx = static_cast<float>(step.cell.xx * unit);
+    task.step_xy = static_cast<float>(step.cell.xy * unit);
+    task.step_yy = static_cast<float>(step.cell.yy * unit);
+    task.gradient_xx = static_cast<float>(step.gradient.xx);
+    task.gradient_xy = static_cast<float>(step.gradient.xy);
+    task.gradient_yy = static_cast<float>(step.gradient.yy);
+    task.normal_stiffness = static_cast<float>(contact_.normal_stiffness);
+    task.tangential_stiffness = static_cast<float>(contact_.tangential_stiffness);
+    task.friction_coefficient = static_cast<float>(contact_.friction_coefficient);
+    task.dt = static_cast<float>(step.dt);
   }
 
   /// Each contact was seen from both ends.
   static void add_contacts(ChunkTask& task) {
-    const ContactSweep& c = task.contact_sweep;
+    const ContactTask& c = task.contacts;
     Virial& v = task.sums.virial;
     v.xx += 0.5 * c.virial.xx;
     v.xy += 0.5 * c.virial.xy;

@@ -27,8 +27,8 @@ class ReferenceBackend final : public ForceBackend {
   ReferenceBackend(const BondLaw& bond, const ContactLaw& contact) : bond_(bond), contact_(contact) {}
 
   void load(const BondNetwork&, const DiscState&, const CellMatrix&) override {}
-  void list(const NearPairs&, const DiscState&) override {}
-  void collect(NearPairs&) const override {}
+  void set_neighbours(const NeighbourList&, const DiscState&) override {}
+  void export_contact_history(NeighbourList&) const override {}
 
   StepSums forces(ForceStep& step) override {
     std::fill(step.discs.fx.begin(), step.discs.fx.end(), 0.0);
@@ -39,8 +39,8 @@ class ReferenceBackend final : public ForceBackend {
       if (step.network.state[static_cast<std::size_t>(b)] == BondState::intact)
         bond(step, static_cast<std::int32_t>(b), sums);
     for (std::int32_t i = 0; i < step.discs.size(); ++i)
-      for (std::int32_t k = step.near_pairs.row_begin(i); k < step.near_pairs.row_end(i); ++k) {
-        NearSlot& slot = step.near_pairs.slots()[at(k)];
+      for (std::int32_t k = step.neighbour_list.row_begin(i); k < step.neighbour_list.row_end(i); ++k) {
+        NeighbourSlot& slot = step.neighbour_list.slots()[at(k)];
         if (slot.neighbour > i && slot.bonded == 0) contact(step, i, slot, sums);
       }
     return sums;
@@ -68,23 +68,23 @@ class ReferenceBackend final : public ForceBackend {
     const std::int32_t i = net.i[at(id)], j = net.j[at(id)];
     const Branch r = branch(discs, i, j, step.cell);
     const BondKinematics k = kinematics_of(discs, i, j, step.cell, net.direction_x[at(id)], net.direction_y[at(id)],
-                                           net.rest_length[at(id)]);
-    const double contact_distance = discs.radius[at(i)] + discs.radius[at(j)];
-    const double touch = std::min(contact_distance, net.rest_length[at(id)]);
-    const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, touch - k.length)};
+                                           net.reference_length[at(id)]);
+    const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
+    const double contact_distance = std::min(sum_radii, net.reference_length[at(id)]);
+    const BondPoint now{k.delta_n, k.delta_t, std::max(0.0, contact_distance - k.length)};
     const double damage = updated_damage(bond_, k.delta_n, k.delta_t, net.strength[at(id)], net.damage[at(id)]);
     if (damage > net.damage[at(id)]) {
       const BondKinematics old = kinematics_before(discs, i, j, step.cell_before, net.direction_x[at(id)],
-                                                   net.direction_y[at(id)], net.rest_length[at(id)]);
-      const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, touch - old.length)};
+                                                   net.direction_y[at(id)], net.reference_length[at(id)]);
+      const BondPoint before{old.delta_n, old.delta_t, std::max(0.0, contact_distance - old.length)};
       sums.damage += damageable_energy(bond_, before, now) * (damage - net.damage[at(id)]);
       net.damage[at(id)] = damage;
       if (damage >= 1.0) {
-        sums.damage += compression_release(bond_, before, now, net.rest_length[at(id)] <= contact_distance);
+        sums.damage += compression_release(bond_, before, now, net.reference_length[at(id)] <= sum_radii);
         net.state[at(id)] = BondState::broken;
         step.broken.push_back(id);
-        step.near_pairs.release(i, j, touch);
-        step.near_pairs.release(j, i, touch);
+        step.neighbour_list.release(i, j, contact_distance);
+        step.neighbour_list.release(j, i, contact_distance);
         return;
       }
     }
@@ -95,7 +95,7 @@ class ReferenceBackend final : public ForceBackend {
     discs.torque[at(j)] += torque;
   }
 
-  void contact(ForceStep& step, std::int32_t i, NearSlot& slot, StepSums& sums) {
+  void contact(ForceStep& step, std::int32_t i, NeighbourSlot& slot, StepSums& sums) {
     DiscState& discs = step.discs;
     const std::int32_t j = slot.neighbour;
     const Branch r = branch(discs, i, j, step.cell);
@@ -106,8 +106,8 @@ class ReferenceBackend final : public ForceBackend {
     const double uy = discs.vy[at(j)] - discs.vy[at(i)] + l.yy * r.y;
     const double v_n = ux * nx + uy * ny;
     const double sum_radii = discs.radius[at(i)] + discs.radius[at(j)];
-    if (length > sum_radii) slot.touch = sum_radii;
-    const double overlap = slot.touch - length;
+    if (length > sum_radii) slot.contact_distance = sum_radii;
+    const double overlap = slot.contact_distance - length;
     const double lever_i = length * discs.radius[at(i)] / sum_radii, lever_j = length * discs.radius[at(j)] / sum_radii;
     const double v_t = (uy * nx - ux * ny) - (lever_i * discs.omega[at(i)] + lever_j * discs.omega[at(j)]);
     if (overlap > 0.0) {
@@ -125,8 +125,8 @@ class ReferenceBackend final : public ForceBackend {
       sums.friction += lost.friction;
       sums.viscous += lost.viscous;
     }
-    if (NearSlot* mirror = step.near_pairs.find(j, i)) {
-      mirror->touch = slot.touch;
+    if (NeighbourSlot* mirror = step.neighbour_list.find(j, i)) {
+      mirror->contact_distance = slot.contact_distance;
       mirror->history = slot.history;
     }
   }

@@ -59,13 +59,13 @@ class SlicedRows {
     }
   }
 
-  /// Points the layout's part of a sweep at the rows of chunk `chunk`.
-  template <class Sweep>
-  void aim(Sweep& sweep, std::int32_t chunk) const {
-    sweep.slice_first = first_.data();
-    sweep.slice_disc = disc_.data();
-    sweep.slice_begin = chunk_first_[static_cast<std::size_t>(chunk)];
-    sweep.slice_end = chunk_first_[static_cast<std::size_t>(chunk) + 1];
+  /// Points the layout's part of a kernel task at the rows of chunk `chunk`.
+  template <class Task>
+  void aim(Task& task, std::int32_t chunk) const {
+    task.slice_first = first_.data();
+    task.slice_disc = disc_.data();
+    task.slice_begin = chunk_first_[static_cast<std::size_t>(chunk)];
+    task.slice_end = chunk_first_[static_cast<std::size_t>(chunk) + 1];
   }
 
  private:

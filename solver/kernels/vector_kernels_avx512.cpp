@@ -1,11 +1,10 @@
 // What is here: the vector loops for AVX-512 (compile options in CMakeLists.txt). What is not: the loops themselves
-// (bond_sweep.h, contact_sweep.h).
-#include "solver/kernels/bond_sweep.h"
-#include "solver/kernels/contact_sweep.h"
+// (bond_kernel.h, contact_kernel.h).
+#include "solver/kernels/bond_kernel.h"
+#include "solver/kernels/contact_kernel.h"
 
 namespace perfora::solver {
 
-const VectorKernels vector_kernels_avx512 = {lanes,        "avx512",     quartic,       general,
-                                             quartic_weak, general_weak, sweep_contacts};
+const VectorKernels vector_kernels_avx512 = {lanes, "avx512", quartic, general, quartic_weak, general_weak, contacts};
 
 }  // namespace perfora::solver

@@ -20,7 +20,7 @@ struct State {
   ContactLaw contact;
   DiscState discs;
   BondNetwork network;
-  NearPairs near_pairs;
+  NeighbourList neighbour_list;
   CellMatrix cell;
   std::vector<double> inverse_mass, inverse_inertia;
   std::vector<std::int32_t> broken;
@@ -47,16 +47,16 @@ struct State {
     }
     discs.sx_before = discs.sx;
     discs.sy_before = discs.sy;
-    discs.turn_before = discs.turn;
+    discs.half_angle_before = discs.half_angle;
     if (!bonded) std::fill(network.state.begin(), network.state.end(), BondState::compacted);
-    near_pairs.configure(discs.size(), largest, 0.35 * block.mean_diameter);
-    near_pairs.rebuild(discs, cell, network);
+    neighbour_list.configure(discs.size(), largest, 0.35 * block.mean_diameter);
+    neighbour_list.rebuild(discs, cell, network);
     broken.reserve(network.i.size());
   }
 
   StepSums forces(ForceBackend& backend) {
     broken.clear();
-    ForceStep step{discs, network, near_pairs, cell, cell, {}, dt, broken};
+    ForceStep step{discs, network, neighbour_list, cell, cell, {}, dt, broken};
     return backend.forces(step);
   }
 };
@@ -93,7 +93,7 @@ void bonds(benchmark::State& run, SimdChoice simd, int threads) {
   State s(table1());
   const auto backend = make_openmp_backend(s.bond, s.contact, threads, simd);
   backend->load(s.network, s.discs, s.cell);
-  backend->list(s.near_pairs, s.discs);
+  backend->set_neighbours(s.neighbour_list, s.discs);
   for (auto _ : run) benchmark::DoNotOptimize(s.forces(*backend));
   const auto count = static_cast<double>(s.network.size());
   per_item(run, count, 2.0 * count * bytes_per_bond_end);
@@ -113,22 +113,23 @@ void contacts(benchmark::State& run, int threads) {
   State s(rubble(), false);
   const auto backend = make_openmp_backend(s.bond, s.contact, threads);
   backend->load(s.network, s.discs, s.cell);
-  backend->list(s.near_pairs, s.discs);
+  backend->set_neighbours(s.neighbour_list, s.discs);
   for (auto _ : run) benchmark::DoNotOptimize(s.forces(*backend));
   double touching = 0.0;
   for (std::int32_t i = 0; i < s.discs.size(); ++i)
-    for (std::int32_t k = s.near_pairs.row_begin(i); k < s.near_pairs.row_end(i); ++k) {
-      const NearSlot& slot = s.near_pairs.slots()[static_cast<std::size_t>(k)];
-      if (slot.neighbour > i && kinematics_of(s.discs, i, slot.neighbour, s.cell, 1.0, 0.0, 0.0).length < slot.touch)
+    for (std::int32_t k = s.neighbour_list.row_begin(i); k < s.neighbour_list.row_end(i); ++k) {
+      const NeighbourSlot& slot = s.neighbour_list.slots()[static_cast<std::size_t>(k)];
+      if (slot.neighbour > i &&
+          kinematics_of(s.discs, i, slot.neighbour, s.cell, 1.0, 0.0, 0.0).length < slot.contact_distance)
         touching += 1.0;
     }
-  per_item(run, touching, 36.0 * static_cast<double>(s.near_pairs.slots().size()));  // 28 read, 8 written and more
+  per_item(run, touching, 36.0 * static_cast<double>(s.neighbour_list.slots().size()));  // 28 read, 8 written and more
 }
 
-void near_pairs(benchmark::State& run) {
+void neighbour_list(benchmark::State& run) {
   State s(rubble(), false);
-  for (auto _ : run) s.near_pairs.rebuild(s.discs, s.cell, s.network);
-  per_item(run, 0.5 * static_cast<double>(s.near_pairs.slots().size()), 0.0);
+  for (auto _ : run) s.neighbour_list.rebuild(s.discs, s.cell, s.network);
+  per_item(run, 0.5 * static_cast<double>(s.neighbour_list.slots().size()), 0.0);
 }
 
 void kick_drift(benchmark::State& run, int threads) {
@@ -140,7 +141,7 @@ void kick_drift(benchmark::State& run, int threads) {
   for (auto _ : run) {
     std::swap(s.discs.sx, s.discs.sx_before);
     std::swap(s.discs.sy, s.discs.sy_before);
-    std::swap(s.discs.turn, s.discs.turn_before);
+    std::swap(s.discs.half_angle, s.discs.half_angle_before);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (std::int32_t c = 0; c < chunks; ++c)
       benchmark::DoNotOptimize(kick_and_drift(task, c * chunk_discs, std::min(n, (c + 1) * chunk_discs)));
@@ -168,7 +169,7 @@ void register_all() {
       kick_drift(run, threads);
     })->UseRealTime();
   }
-  benchmark::RegisterBenchmark("near_pairs/rebuild", near_pairs);
+  benchmark::RegisterBenchmark("near_pairs/rebuild", neighbour_list);
 }
 
 }  // namespace

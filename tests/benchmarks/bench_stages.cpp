@@ -40,7 +40,7 @@ solver::Simulation compression(const Block& b, double rate, int threads) {
 }
 
 std::string stage(solver::Simulation& s, const char* name, int steps) {
-  const std::int64_t rebuilds = s.near_pairs().rebuilds();
+  const std::int64_t rebuilds = s.neighbour_list().rebuilds();
   const double bond_steps = s.bond_steps();
   const Clock::time_point start = Clock::now();
   for (int k = 0; k < steps; ++k) s.step();
@@ -51,7 +51,7 @@ std::string stage(solver::Simulation& s, const char* name, int steps) {
       R"({{"stage": "{}", "strain": {:.4f}, "intact_bonds": {}, "contacts": {:.0f}, "steps_per_second": {:.1f}, )"
       R"("ns_per_bond_or_contact_step": {:.3f}, "list_rebuilds": {}}})",
       name, s.strain(), s.intact_bonds(), contacts, steps / seconds, 1e9 * seconds / pairs,
-      s.near_pairs().rebuilds() - rebuilds);
+      s.neighbour_list().rebuilds() - rebuilds);
 }
 
 }  // namespace

@@ -195,8 +195,8 @@ TEST(Graded, DiametersAreLinearFromTheBottomRowToTheTop) {
       double sum = 0.0;
       for (const Perforation& hole : holes) {
         // The share of the height that the row is at, from 0 at the lowest centre to 1 at the highest.
-        const double share = (hole.y - 0.075 / rows) / (0.15 - 0.15 / rows);
-        EXPECT_NEAR(hole.largest_extent(), 0.008 * (1.0 + grading * (share - 0.5)), rounding);
+        const double fraction = (hole.y - 0.075 / rows) / (0.15 - 0.15 / rows);
+        EXPECT_NEAR(hole.largest_extent(), 0.008 * (1.0 + grading * (fraction - 0.5)), rounding);
         sum += hole.largest_extent();
       }
       EXPECT_NEAR(sum / (4.0 * rows), 0.008, rounding);

@@ -37,9 +37,10 @@ TEST(SizeLaw, QuantileInvertsTheDistribution) {
     EXPECT_NEAR(law.quantile(1.0), 1.0, 1e-14);
     for (double u : {0.1, 0.5, 0.9}) {
       const double d = law.quantile(u);
-      const double share = q == 1.0 ? std::log(3.0 * d) / std::log(3.0)
-                                    : (std::pow(d, 1.0 - q) - std::pow(3.0, q - 1.0)) / (1.0 - std::pow(3.0, q - 1.0));
-      EXPECT_NEAR(share, u, 1e-12) << "q = " << q;
+      const double fraction = q == 1.0
+                                  ? std::log(3.0 * d) / std::log(3.0)
+                                  : (std::pow(d, 1.0 - q) - std::pow(3.0, q - 1.0)) / (1.0 - std::pow(3.0, q - 1.0));
+      EXPECT_NEAR(fraction, u, 1e-12) << "q = " << q;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/schema.h"
+#include "io/toml.h"
 
 namespace perfora::io {
 

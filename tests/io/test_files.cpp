@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "io_support.h"
 
 namespace perfora::io {

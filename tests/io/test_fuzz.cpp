@@ -7,7 +7,9 @@
 
 #include "example_options.h"
 #include "io/csv.h"
+#include "io/files.h"
 #include "io/journal.h"
+#include "io/units.h"
 #include "io_support.h"
 
 namespace perfora::io {

@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "io_support.h"
 
 namespace perfora::io {

@@ -1,5 +1,6 @@
 // What is here: the promises of the journal: torn lines dropped, damage named, one owner, nothing lost by a kill.
 // What is not: what events mean.
+#include "io/files.h"
 #include "io/journal.h"
 
 #include <gmock/gmock.h>

@@ -181,6 +181,60 @@ TEST(Schema, ChangedConfigurationLeavesDefaultsOut) {
   EXPECT_EQ(read.schema.to_toml(), example.schema.to_toml());
 }
 
+TEST(Schema, OldNamesOfKeysAndSectionsAreTaken) {
+  Example example;
+  Schema& schema = example.schema;
+  schema.renamed({"layout.width_of_hole", "layout.diameter"});
+  schema.renamed({"filling", "packing"});
+  EXPECT_EQ(schema.find("layout.width_of_hole"), schema.find("layout.diameter"));
+  EXPECT_TRUE(schema.notices().empty());
+  example.apply("[layout]\nrows = 3\nwidth_of_hole = \"22 mm\"\n[filling]\nlabel = \"a\"\n");
+  EXPECT_EQ(example.options.diameter, 0.022);
+  EXPECT_EQ(example.options.label, "a");
+  schema.set_override("layout.width_of_hole=23 mm");
+  EXPECT_EQ(schema.get_number("layout.width_of_hole"), 0.023);
+  EXPECT_EQ(schema.origin("layout.width_of_hole").file, "--set");
+  EXPECT_EQ(schema.origin("layout.diameter").file, "--set");
+  // One sentence for each place and old name, however often it is set.
+  schema.set_override("layout.width_of_hole=24 mm");
+  ASSERT_EQ(schema.notices().size(), 3u);
+  EXPECT_THAT(schema.notices()[0], HasSubstr(":3: layout.width_of_hole: is now called layout.diameter; "));
+  EXPECT_THAT(schema.notices()[1], HasSubstr("filling.label: is now called packing.label; the old name is still read"));
+  EXPECT_THAT(schema.notices()[2], HasSubstr("--set: layout.width_of_hole: "));
+}
+
+TEST(Schema, WhatIsMadeOfFirstNamesStaysWhenAKeyIsRenamed) {
+  Example before, renamed;
+  renamed.schema.renamed({"layout.first", "layout.diameter"});
+  renamed.schema.renamed({"filling", "packing"});
+  for (Example* example : {&before, &renamed}) {
+    example->schema.set_override("layout.diameter=22 mm");
+    example->schema.set_override("packing.label=a");
+  }
+  EXPECT_EQ(renamed.schema.changed_toml(), before.schema.changed_toml());
+  EXPECT_EQ(renamed.schema.changed_toml(Names::first),
+            "[layout]\nfirst = 0.021999999999999999\n\n[filling]\nlabel = \"a\"\n");
+  Example read;
+  read.schema.renamed({"layout.first", "layout.diameter"});
+  read.schema.renamed({"filling", "packing"});
+  read.apply(renamed.schema.to_toml(Names::first));
+  EXPECT_EQ(read.schema.to_toml(), before.schema.to_toml());
+}
+
+TEST(Schema, AFileMayNameTheVersionOfItsKeys) {
+  Example example;
+  example.apply("schema_version = 1\n[layout]\nrows = 3\n");
+  EXPECT_EQ(example.options.rows, 3);
+  for (const char* text : {"schema_version = 2\n", "schema_version = 0\n", "schema_version = \"1\"\n"}) {
+    try {
+      example.apply(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(":1: schema_version: ")) << text;
+    }
+  }
+}
+
 TEST(Schema, ResolvedConfigurationHoldsEveryKeyInSi) {
   Example example;
   example.schema.set_override("layout.diameter=22mm");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/text.h"
+#include "io/units.h"
 
 namespace perfora::io {
 namespace {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "example_options.h"
+#include "io/toml.h"
 #include "io_support.h"
 
 namespace perfora::io {

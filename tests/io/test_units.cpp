@@ -6,6 +6,7 @@
 #include <random>
 
 #include "io/schema.h"
+#include "io/units.h"
 #include "io_support.h"
 
 namespace perfora::io {

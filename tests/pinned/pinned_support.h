@@ -14,6 +14,8 @@ namespace perfora::test {
 std::string read_text(const std::filesystem::path& path);
 /// Where the committed fixtures stand.
 std::filesystem::path pinned(const std::string& name);
+/// A pinned text in the names of keys and the words of today.
+std::string reworded(std::string text);
 nlohmann::json pinned_json(const std::string& name);
 
 struct Outcome {

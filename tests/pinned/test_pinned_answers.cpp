@@ -28,7 +28,7 @@ TEST_P(PinnedAnswers, JsonIsTheSame) {
   const WorkFolder work;
   const Outcome outcome = work.run(GetParam().arguments + " --quiet --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(differences(pinned_json("answers/" + GetParam().name + ".json"), json::parse(outcome.output)), "");
+  EXPECT_EQ(differences(pinned_json("answers/" + GetParam().name + ".json"), json::parse(reworded(outcome.output))), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, PinnedAnswers, ::testing::ValuesIn(commands_without("text")), name_of);

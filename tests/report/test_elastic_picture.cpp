@@ -1,4 +1,4 @@
-// What is here: elastic answers read back, refused when broken, drawn with the right colour in the right place.
+// What is here: elastic responses read back, refused when broken, drawn with the right colour in the right place.
 #include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

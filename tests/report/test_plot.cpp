@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "io/error.h"
-#include "io/journal.h"
+#include "io/files.h"
 #include "report/block_picture.h"
 #include "report/chart.h"
 #include "report/plot.h"

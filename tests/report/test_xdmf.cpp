@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "io/files.h"
 #include "io/hdf5.h"
-#include "io/journal.h"
 #include "report/xdmf.h"
 #include "tests/results/synthetic_run.h"
 

@@ -119,7 +119,7 @@ void make_bonds(RunResult& run, std::mt19937& engine) {
       const double length = std::hypot(dx, dy);
       if (length > 1.9 * run.mean_diameter) continue;
       run.bonds.pairs.insert(run.bonds.pairs.end(), {i, j});
-      run.bonds.rest_length.push_back(length);
+      run.bonds.reference_length.push_back(length);
       run.bonds.strength_factor.push_back(0.8 + 0.4 * uniform(engine));
     }
 }

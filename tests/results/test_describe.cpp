@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "io/files.h"
 #include "io/hdf5.h"
 #include "io/journal.h"
 #include "results/describe.h"

@@ -17,7 +17,7 @@ inline solver::SolverOptions with_edges(solver::TopBottom top_bottom, solver::Si
 /// Bonds that no test breaks.
 inline void make_unbreakable(solver::MaterialOptions& material) {
   constexpr double out_of_reach = 1e4;
-  material.critical_normal_stretch *= out_of_reach;
+  material.critical_normal_displacement *= out_of_reach;
   material.critical_shear_displacement *= out_of_reach;
 }
 

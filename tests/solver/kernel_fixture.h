@@ -14,7 +14,7 @@ namespace perfora::test {
 struct KernelCase {
   solver::DiscState discs;
   solver::BondNetwork network;
-  solver::NearPairs near_pairs;
+  solver::NeighbourList neighbour_list;
   solver::CellMatrix cell, cell_before;
   solver::BondLaw bond;
   solver::ContactLaw contact;
@@ -24,8 +24,9 @@ struct KernelCase {
   solver::StepSums evaluate(solver::ForceBackend& backend) {
     broken.clear();
     broken.reserve(static_cast<std::size_t>(network.size()));
-    solver::ForceStep step{
-        discs, network, near_pairs, cell, cell_before, solver::velocity_gradient(cell_before, cell, dt), dt, broken};
+    solver::ForceStep step{discs, network,     neighbour_list,
+                           cell,  cell_before, solver::velocity_gradient(cell_before, cell, dt),
+                           dt,    broken};
     return backend.forces(step);
   }
   /// Ends a drift at the positions and angles that were set: records follow, and the places of the last call become the
@@ -33,14 +34,14 @@ struct KernelCase {
   void move_done() {
     discs.sx_before = last_x.empty() ? discs.sx : last_x;
     discs.sy_before = last_y.empty() ? discs.sy : last_y;
-    discs.turn_before = last_turn.empty() ? discs.turn : last_turn;
+    discs.half_angle_before = last_turn.empty() ? discs.half_angle : last_turn;
     last_x = discs.sx;
     last_y = discs.sy;
-    last_turn = discs.turn;
+    last_turn = discs.half_angle;
     for (std::size_t d = 0; d < discs.sx.size(); ++d) discs.refresh_record(d);
   }
   std::vector<std::uint64_t> last_x, last_y, last_turn;
-  void turn(const std::vector<double>& angle) {
+  void half_angle(const std::vector<double>& angle) {
     for (std::size_t d = 0; d < angle.size(); ++d) discs.set_angle(d, angle[d]);
   }
   void place(std::int32_t disc, double x, double y) {
@@ -70,14 +71,14 @@ inline KernelCase two_discs(double l0, double radius = 0.2e-3) {
   c.place(1, 0.005 + l0, 0.005);
   c.move_done();
   c.move_done();
-  c.near_pairs.configure(2, radius, 0.2e-3);
-  c.near_pairs.rebuild(c.discs, c.cell, c.network);
+  c.neighbour_list.configure(2, radius, 0.2e-3);
+  c.neighbour_list.rebuild(c.discs, c.cell, c.network);
   return c;
 }
 
 /// A jittered packing with a network, random displacements of `share` of the critical stretch, random rotations,
 /// velocities, some damage and some bonds already broken; a sheared, compressed cell.
-inline KernelCase random_case(std::uint64_t seed, double share, solver::BondLaw bond, double lean = 0.0) {
+inline KernelCase random_case(std::uint64_t seed, double fraction, solver::BondLaw bond, double cell_shear = 0.0) {
   const double pitch = 0.5e-3;
   const geometry::Packing packing = jittered_packing(14, pitch, seed);
   KernelCase c;
@@ -86,7 +87,7 @@ inline KernelCase random_case(std::uint64_t seed, double share, solver::BondLaw 
   c.contact = solver::make_contact_law(material);
   c.network = solver::make_bond_network(packing, no_holes(packing), material, {}, seed, pitch);
   c.cell_before = {packing.width, 0.0, packing.height};
-  c.cell = {packing.width, lean * packing.height, packing.height * (1.0 - 1e-5)};
+  c.cell = {packing.width, cell_shear * packing.height, packing.height * (1.0 - 1e-5)};
   Uniform u(seed + 100);
   const std::size_t n = packing.x.size();
   c.discs.resize(n);
@@ -102,7 +103,7 @@ inline KernelCase random_case(std::uint64_t seed, double share, solver::BondLaw 
   }
   c.move_done();
   std::swap(c.cell, c.cell_before);
-  const double move = share * 1.529e-6;
+  const double move = fraction * 1.529e-6;
   for (std::size_t d = 0; d < n; ++d) {
     c.discs.sx[d] += static_cast<std::uint64_t>(static_cast<std::int64_t>(u(-move, move) / packing.width * 0x1p63) * 2);
     c.discs.sy[d] +=
@@ -117,8 +118,8 @@ inline KernelCase random_case(std::uint64_t seed, double share, solver::BondLaw 
     if (c.network.state[b] != solver::BondState::intact) c.network.damage[b] = 1.0;
   }
   c.move_done();
-  c.near_pairs.configure(static_cast<std::int32_t>(n), 0.48 * pitch, 0.2 * pitch);
-  c.near_pairs.rebuild(c.discs, c.cell, c.network);
+  c.neighbour_list.configure(static_cast<std::int32_t>(n), 0.48 * pitch, 0.2 * pitch);
+  c.neighbour_list.rebuild(c.discs, c.cell, c.network);
   return c;
 }
 

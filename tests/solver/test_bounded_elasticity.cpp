@@ -1,4 +1,4 @@
-// What is here: the elastic answer of blocks with platens, walls and free sides against the stiffness of the periodic
+// What is here: the elastic response of blocks with platens, walls and free sides against the stiffness of the periodic
 // block, which comes from a linear solution of its own (elastic.h). What is not: breaking.
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ Answer compress(const geometry::Packing& packing, SolverOptions options, double 
   a.modulus = stress / (0.95 * strain);
   a.xx = s.row_stress().xx / stress;
   for (std::size_t w = 0; w < s.walls().places().size(); ++w) {
-    double* const shares[] = {&a.bottom, &a.top, &a.left, &a.right};
-    *shares[static_cast<std::size_t>(s.walls().places()[w].side)] = s.walls().row_pressure(w) / stress;
+    double* const fractions[] = {&a.bottom, &a.top, &a.left, &a.right};
+    *fractions[static_cast<std::size_t>(s.walls().places()[w].side)] = s.walls().row_pressure(w) / stress;
   }
   return a;
 }

@@ -117,7 +117,7 @@ TEST(Conservation, EnergyOfAThrownCluster) {
 // asked of real runs, these fast ones hold it, too. What Cundall damping takes only grows.
 TEST(Conservation, LedgerOfADampedCompression) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
-    for (const double lean : {0.0, 0.5}) {
+    for (const double cell_shear : {0.0, 0.5}) {
       const geometry::Packing packing = test::jittered_packing(14, 0.5e-3, seed);
       SolverOptions options;
       SimulationInput input;
@@ -127,7 +127,7 @@ TEST(Conservation, LedgerOfADampedCompression) {
       input.time_step = options.dynamics.step_factor * input.masses.critical_step;
       input.cell.start = {packing.width, 0.0, packing.height};
       input.cell.control = {CellControl::fixed, CellControl::rate, CellControl::rate};
-      input.cell.velocity = {0.0, lean * 60.0 * packing.height, -60.0 * packing.height};
+      input.cell.velocity = {0.0, cell_shear * 60.0 * packing.height, -60.0 * packing.height};
       input.mean_diameter = 0.5e-3;
       Simulation s(std::move(input));
       double cundall = 0.0, work = 0.0;
@@ -154,7 +154,7 @@ void same_state(const Simulation& a, const Simulation& b, const Compare& note) {
   EXPECT_EQ(a.discs().sy, b.discs().sy) << note;
   EXPECT_EQ(a.discs().vx, b.discs().vx) << note;
   EXPECT_EQ(a.discs().vy, b.discs().vy) << note;
-  EXPECT_EQ(a.discs().turn, b.discs().turn) << note;
+  EXPECT_EQ(a.discs().half_angle, b.discs().half_angle) << note;
   EXPECT_EQ(a.discs().fx, b.discs().fx) << note;
   EXPECT_EQ(a.discs().torque, b.discs().torque) << note;
   EXPECT_EQ(a.discs().omega, b.discs().omega) << note;
@@ -184,7 +184,7 @@ TEST_P(EverySimd, ThreadsDoNotChangeABit) {
     for (int k = 0; k < 1500; ++k)
       for (Simulation& s : runs) s.step();
     EXPECT_GT(runs[0].events().size(), 100u);
-    EXPECT_GT(runs[0].near_pairs().rebuilds(), 1);
+    EXPECT_GT(runs[0].neighbour_list().rebuilds(), 1);
     EXPECT_GT(runs[0].contacts(), 0);
     EXPECT_GT(std::count(runs[0].network().state.begin(), runs[0].network().state.end(), BondState::compacted), 0);
     same_state(runs[0], runs[1], "2 threads");
@@ -290,7 +290,7 @@ TEST(Stress, AffineModulusMatchesTheBondSum) {
   const BondNetwork& net = s.network();
   double modulus = 0.0;
   for (std::size_t b = 0; b < net.i.size(); ++b) {
-    const double l = net.rest_length[b], nx = net.direction_x[b], ny = net.direction_y[b];
+    const double l = net.reference_length[b], nx = net.direction_x[b], ny = net.direction_y[b];
     modulus += l * l *
                (options.material.normal_stiffness * ny * ny * ny * ny +
                 options.material.tangential_stiffness * nx * nx * ny * ny);

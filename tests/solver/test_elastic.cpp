@@ -1,4 +1,4 @@
-// What is here: the linear elastic answer against closed forms: triangular lattice, Voigt's bound, rotation of the
+// What is here: the linear elastic response against closed forms: triangular lattice, Voigt's bound, rotation of the
 // frame, singular networks. What is not: agreement with the time-stepping solver (test_elastic_against_solver.cpp).
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr double k_n = 2.195e7, k_t = 8.246e6;  // Table 1
 void add_bond(BondNetwork& network, std::int32_t i, std::int32_t j, double length, double angle) {
   network.i.push_back(i);
   network.j.push_back(j);
-  network.rest_length.push_back(length);
+  network.reference_length.push_back(length);
   network.direction_x.push_back(std::cos(angle));
   network.direction_y.push_back(std::sin(angle));
   network.strength.push_back(1.0);
@@ -74,7 +74,7 @@ double twice_work(const PlaneStiffness& c, const std::array<double, 3>& strain) 
 // sqrt(3)/4 (3 k_n
 // + k_t), C12 = sqrt(3)/4 (k_n - k_t), G = sqrt(3)/4 (k_n + k_t); isotropic, so nu2 = C12/C11 and E2 = C11 (1 - nu2^2).
 // Tolerance: rounding of sums of a thousand terms.
-TEST(ElasticAnswer, TriangularLatticeInClosedForm) {
+TEST(ElasticResponse, TriangularLatticeInClosedForm) {
   constexpr std::int32_t n = 12;
   constexpr double pitch = 0.7e-3, rounding = 1e-12;
   const double width = n * pitch, height = n * pitch * std::sqrt(3.0) / 2.0;
@@ -101,7 +101,7 @@ TEST(ElasticAnswer, TriangularLatticeInClosedForm) {
 }
 
 // Plane strain of a solid with E = 30 GPa, nu = 0.2: K = lambda + G and G with Lame's constants (any textbook).
-TEST(ElasticAnswer, PlaneStrainReading) {
+TEST(ElasticResponse, PlaneStrainReading) {
   constexpr double young = 30e9, nu = 0.2;
   const double lambda = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), g = young / (2.0 * (1.0 + nu));
   const PlaneModuli m =
@@ -114,11 +114,11 @@ TEST(ElasticAnswer, PlaneStrainReading) {
 
 // An orthotropic sheet in closed form: S11 = 1/E_x, S12 = -nu_xy/E_x, so C = [E_x, nu_yx E_x; ., E_y]/(1 - nu_xy
 // nu_yx).
-TEST(ElasticAnswer, OrthotropicModuli) {
+TEST(ElasticResponse, OrthotropicModuli) {
   constexpr double young_x = 4e9, young_y = 1e9, nu_xy = 0.4, nu_yx = nu_xy * young_y / young_x, g = 0.7e9;
-  constexpr double share = 1.0 / (1.0 - nu_xy * nu_yx);
-  const PlaneModuli m = plane_moduli({{{share * young_x, share * nu_yx * young_x, 0.0},
-                                       {share * nu_yx * young_x, share * young_y, 0.0},
+  constexpr double fraction = 1.0 / (1.0 - nu_xy * nu_yx);
+  const PlaneModuli m = plane_moduli({{{fraction * young_x, fraction * nu_yx * young_x, 0.0},
+                                       {fraction * nu_yx * young_x, fraction * young_y, 0.0},
                                        {0.0, 0.0, g}}});
   EXPECT_NEAR(m.young_x, young_x, 1e-12 * young_x);
   EXPECT_NEAR(m.young_y, young_y, 1e-12 * young_x);
@@ -130,7 +130,7 @@ TEST(ElasticAnswer, OrthotropicModuli) {
 
 // Maxwell-Betti: C is symmetric (to the square root of the residual at worst; 1e-8 is far above it). Voigt's bound: no
 // strain takes more work than its affine motion, so C_affine - C is positive: checked for many strains.
-TEST(ElasticAnswer, SymmetricAndBelowVoigt) {
+TEST(ElasticResponse, SymmetricAndBelowVoigt) {
   const geometry::Packing packing = test::jittered_packing(30, 0.5e-3, 3);
   const ElasticResponse r =
       elastic_response(random_network(packing), packing.size(), packing.width, packing.height, k_n, k_t);
@@ -148,7 +148,7 @@ TEST(ElasticAnswer, SymmetricAndBelowVoigt) {
 
 // Objectivity: turning the whole network, cell and all, turns the stiffness as a tensor of fourth order, so the work of
 // the turned strain is the same. Tolerance: the square of the residual is far below it, what is left is rounding.
-TEST(ElasticAnswer, TurnsWithTheFrame) {
+TEST(ElasticResponse, TurnsWithTheFrame) {
   const geometry::Packing packing = test::jittered_packing(20, 0.5e-3, 8);
   const BondNetwork network = random_network(packing);
   const auto answer = [&](const BondNetwork& of) {
@@ -175,7 +175,7 @@ TEST(ElasticAnswer, TurnsWithTheFrame) {
 // A cluster that spans no boundary yields to every strain: no stress. What hangs loose beside a spanning network (a
 // disc without bonds, a disc on one bond, a pair, a triangle) carries nothing and changes nothing but the solution's
 // last bits.
-TEST(ElasticAnswer, LooseDiscsAndFragmentsDoNoHarm) {
+TEST(ElasticResponse, LooseDiscsAndFragmentsDoNoHarm) {
   const geometry::Packing cluster = test::cluster_packing(8, 0.5e-3, 2);
   const ElasticResponse alone =
       elastic_response(random_network(cluster), cluster.size(), cluster.width, cluster.height, k_n, k_t);
@@ -199,14 +199,14 @@ TEST(ElasticAnswer, LooseDiscsAndFragmentsDoNoHarm) {
     for (const double value : u) EXPECT_TRUE(std::isfinite(value));
 }
 
-TEST(ElasticAnswer, BrokenBondsDoNotCount) {
+TEST(ElasticResponse, BrokenBondsDoNotCount) {
   const geometry::Packing packing = test::jittered_packing(16, 0.5e-3, 4);
   BondNetwork network = random_network(packing), fewer;
   for (std::size_t b = 0; b < network.i.size(); ++b)
     if (b % 7 == 0)
       network.state[b] = b % 2 ? BondState::broken : BondState::compacted;
     else
-      add_bond(fewer, network.i[b], network.j[b], network.rest_length[b],
+      add_bond(fewer, network.i[b], network.j[b], network.reference_length[b],
                std::atan2(network.direction_y[b], network.direction_x[b]));
   const auto answer = [&](const BondNetwork& of) {
     return elastic_response(of, packing.size(), packing.width, packing.height, MaterialOptions{});
@@ -215,7 +215,7 @@ TEST(ElasticAnswer, BrokenBondsDoNotCount) {
   EXPECT_NEAR(answer(network).stiffness[1][1], answer(fewer).stiffness[1][1], 1e-9 * answer(fewer).stiffness[1][1]);
 }
 
-TEST(ElasticAnswer, NoBondsAndTooFewIterations) {
+TEST(ElasticResponse, NoBondsAndTooFewIterations) {
   const ElasticResponse none = elastic_response(BondNetwork{}, 5, 1e-2, 1e-2, k_n, k_t);
   EXPECT_EQ(none.status, ElasticStatus::converged);
   EXPECT_EQ(none.stiffness[0][0], 0.0);
@@ -278,7 +278,7 @@ TEST(FirstYield, TriangularLattice) {
   material.yield_exponent = 2.0;
   material.threshold_scaling = ThresholdScaling::none;
   const FirstYield y = first_yield(network, r, make_bond_law(material, 0.5e-3));
-  const double a = -0.75 * pitch / material.critical_normal_stretch,
+  const double a = -0.75 * pitch / material.critical_normal_displacement,
                b = std::sqrt(3.0) / 4.0 * pitch / material.critical_shear_displacement;
   const double strain = (-a + std::sqrt(a * a + 4.0 * b * b)) / (2.0 * b * b);
   EXPECT_NEAR(y.strain, weak * strain, 1e-9 * strain);

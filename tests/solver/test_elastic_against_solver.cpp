@@ -1,4 +1,4 @@
-// What is here: the linear elastic answer against the time-stepping solver: the reference kernel, relaxed to
+// What is here: the linear elastic response against the time-stepping solver: the reference kernel, relaxed to
 // equilibrium at strains of both signs. Two codes that share only the bonds. What is not: closed forms
 // (test_elastic.cpp).
 #include <gtest/gtest.h>
@@ -36,7 +36,8 @@ Block make_block(int rows, double hole_diameter, std::uint64_t seed) {
 
 SolverOptions unbreakable() {
   SolverOptions options;
-  options.material.critical_normal_stretch = options.material.critical_shear_displacement = 1.0;  // m: never reached
+  options.material.critical_normal_displacement = options.material.critical_shear_displacement =
+      1.0;  // m: never reached
   options.dynamics.kernel = KernelChoice::reference;
   return options;
 }
@@ -145,7 +146,7 @@ void expect_agreement(const Block& block) {
       EXPECT_NEAR(s.stress[a], r.stiffness[a][m], tolerance * std::sqrt(r.stiffness[a][a] * r.stiffness[m][m]))
           << m << a;
     // The cell of the solver shears as [0 g; 0 0], which is the symmetric shear and a turn by -g/2.
-    const double turn = mode == UnitStrain::xy ? -0.5 : 0.0;
+    const double half_angle = mode == UnitStrain::xy ? -0.5 : 0.0;
     double largest_motion = 0.0, largest_turn = 1.0;
     for (std::size_t d = 0; d < s.motion[0].size(); ++d)
       largest_motion = std::max(largest_motion, std::hypot(r.displacement[m][3 * d], r.displacement[m][3 * d + 1]));
@@ -154,7 +155,7 @@ void expect_agreement(const Block& block) {
       const double* const u = &r.displacement[m][3 * d];
       ASSERT_NEAR(s.motion[0][d] - middle[0], u[0], 10.0 * tolerance * largest_motion) << m << " disc " << d;
       ASSERT_NEAR(s.motion[1][d] - middle[1], u[1], 10.0 * tolerance * largest_motion) << m << " disc " << d;
-      ASSERT_NEAR(s.motion[2][d] - turn, u[2], 10.0 * tolerance * largest_turn) << m << " disc " << d;
+      ASSERT_NEAR(s.motion[2][d] - half_angle, u[2], 10.0 * tolerance * largest_turn) << m << " disc " << d;
     }
   }
 }

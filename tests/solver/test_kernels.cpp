@@ -44,7 +44,7 @@ TEST(ReferenceKernel, PureShearByRotation) {
   for (const double zeta : {0.2, 0.98, 1.03, 1.08}) {
     KernelCase c = two_discs(l0);
     const double theta = std::asin(zeta * dt0 / l0);
-    c.turn({theta, theta});
+    c.half_angle({theta, theta});
     c.move_done();
     c.evaluate(*reference(c));
     const double damage = zeta > 1.0 ? (zeta - 1.0) / 0.1 : 0.0;
@@ -69,7 +69,7 @@ TEST(ReferenceKernel, CompressionShearAndMixed) {
       const double length = l0 + a * dn0;
       const double theta = std::asin(b * dt0 / length);
       c.place(1, 0.005 + length, 0.005);
-      c.turn({theta, theta});
+      c.half_angle({theta, theta});
       c.move_done();
       const StepSums sums = c.evaluate(*reference(c));
       const double damage = wanted <= 1.0 ? 0.0 : wanted >= 1.1 ? 1.0 : (wanted - 1.0) / 0.1;
@@ -108,7 +108,7 @@ TEST(ReferenceKernel, RigidRotationMakesNoForce) {
   for (const double theta : {0.1, 1.0, std::numbers::pi, 2.0 * std::numbers::pi, 10.0, 100.0, -100.0}) {
     KernelCase c = two_discs(l0);
     c.place(1, 0.005 + l0 * std::cos(theta), 0.005 + l0 * std::sin(theta));
-    c.turn({theta, theta});
+    c.half_angle({theta, theta});
     c.move_done();
     c.evaluate(*reference(c));
     const double rounding = 1e-9 * k_n * dn0;  // 100 rad in double carries 1e-14 rad, times l0 over delta0: 1e-11
@@ -122,8 +122,8 @@ TEST(ReferenceKernel, RigidRotationMakesNoForce) {
 // One disc turned by 2 pi more than the other is the same state: e -> -e.
 TEST(ReferenceKernel, WrappingOneDiscIsHarmless) {
   KernelCase c = two_discs(l0), d = two_discs(l0);
-  c.turn({0.004, 0.002});
-  d.turn({0.004 + 2.0 * std::numbers::pi, 0.002});
+  c.half_angle({0.004, 0.002});
+  d.half_angle({0.004 + 2.0 * std::numbers::pi, 0.002});
   for (KernelCase* k : {&c, &d}) {
     k->place(1, 0.005 + l0 + 0.5e-6, 0.005 + 2e-6);
     k->move_done();
@@ -147,10 +147,10 @@ TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
     const BondLaw law = test::paper_bond_law();
     for (std::size_t b = 0; b < net.i.size(); ++b) {
       const auto i = static_cast<std::size_t>(net.i[b]), j = static_cast<std::size_t>(net.j[b]);
-      const double rx = net.rest_length[b] * net.direction_x[b] + dx[j] - dx[i],
-                   ry = net.rest_length[b] * net.direction_y[b] + dy[j] - dy[i];
+      const double rx = net.reference_length[b] * net.direction_x[b] + dx[j] - dx[i],
+                   ry = net.reference_length[b] * net.direction_y[b] + dy[j] - dy[i];
       const double theta = 0.5 * (angle[i] + angle[j]);
-      const BondKinematics k = bond_kinematics(rx, ry, net.direction_x[b], net.direction_y[b], net.rest_length[b],
+      const BondKinematics k = bond_kinematics(rx, ry, net.direction_x[b], net.direction_y[b], net.reference_length[b],
                                                std::cos(theta), std::sin(theta));
       energy += bond_energy(law, {k.delta_n, k.delta_t, 0.0}, 0.0);
     }
@@ -168,11 +168,11 @@ TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
   c.discs.resize(n);
   c.discs.radius = packing.radius;
   c.discs.mass.assign(n, 1e-3);
-  c.turn(angle);
+  c.half_angle(angle);
   for (std::size_t d = 0; d < n; ++d) c.place(static_cast<std::int32_t>(d), packing.x[d] + dx[d], packing.y[d] + dy[d]);
   c.move_done();
-  c.near_pairs.configure(static_cast<std::int32_t>(n), 0.24e-3, 0.1e-3);
-  c.near_pairs.rebuild(c.discs, c.cell, c.network);
+  c.neighbour_list.configure(static_cast<std::int32_t>(n), 0.24e-3, 0.1e-3);
+  c.neighbour_list.rebuild(c.discs, c.cell, c.network);
   c.evaluate(*reference(c));
   double largest = 0.0;
   for (std::size_t d = 0; d < n; ++d) largest = std::max(largest, std::fabs(c.discs.fx[d]));
@@ -197,8 +197,8 @@ TEST(ReferenceKernel, ForceIsMinusTheGradientOfTheEnergy) {
 struct Option {
   const char* name;
   BondLaw law;
-  double share;
-  double lean;
+  double fraction;
+  double cell_shear;
 };
 
 std::vector<Option> options() {
@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, EverySimd, ::testing::ValuesIn(usable_simd())
 
 // One bond, of any direction, length, turn and damage, in any place of the cell of Table 1: each force within 1e-4 of
 // the critical stretch. Half a unit in the last place of 1.5 mm is 7e-11 m, 4.6e-5 of the critical stretch, and the
-// kernel rounds several times on its way to the stretch (bond_sweep.h); what one float loses of l0 is kept apart.
+// kernel rounds several times on its way to the stretch (bond_kernel.h); what one float loses of l0 is kept apart.
 TEST_P(EverySimd, OneBondIsWithinATenThousandthOfTheCriticalStretch) {
   test::Uniform u(77);
   double worst = 0.0;
@@ -256,14 +256,14 @@ TEST_P(EverySimd, OneBondIsWithinATenThousandthOfTheCriticalStretch) {
     const double at = direction + theta + shear / length;
     c.place(0, x, y);
     c.place(1, x + (length + stretch) * std::cos(at), y + (length + stretch) * std::sin(at));
-    c.turn({theta + 1e-3, theta - 1e-3});
+    c.half_angle({theta + 1e-3, theta - 1e-3});
     c.move_done();
     c.move_done();
     KernelCase d = c;
     c.evaluate(*reference(c));
     const auto tested = make_openmp_backend(d.bond, d.contact, 1, GetParam());
     tested->load(d.network, d.discs, {0.15, 0.0, 0.15});
-    tested->list(d.near_pairs, d.discs);
+    tested->set_neighbours(d.neighbour_list, d.discs);
     d.evaluate(*tested);
     const double off = std::hypot(c.discs.fx[0] - d.discs.fx[0], c.discs.fy[0] - d.discs.fy[0]);
     worst = std::max(worst, off / (k_n * dn0));
@@ -280,12 +280,12 @@ TEST_P(EverySimd, AgreesWithTheReferenceBondByBond) {
   double friction = 0.0, overlap = 0.0;  // over all cases: contacts must have been among what is compared
   for (const Option& option : options())
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      KernelCase a = test::random_case(seed, option.share, option.law, option.lean);
-      KernelCase b = test::random_case(seed, option.share, option.law, option.lean);
+      KernelCase a = test::random_case(seed, option.fraction, option.law, option.cell_shear);
+      KernelCase b = test::random_case(seed, option.fraction, option.law, option.cell_shear);
       const auto oracle = make_reference_backend(a.bond, a.contact);
       const auto tested = make_openmp_backend(b.bond, b.contact, 2, GetParam());
       tested->load(b.network, b.discs, b.cell_before);
-      tested->list(b.near_pairs, b.discs);
+      tested->set_neighbours(b.neighbour_list, b.discs);
       for (int repeat = 0; repeat < 3; ++repeat) {  // the second pass sees the damage and breaks of the first
         const StepSums s = a.evaluate(*oracle), t = b.evaluate(*tested);
         std::sort(a.broken.begin(), a.broken.end());
@@ -319,7 +319,7 @@ TEST_P(EverySimd, AgreesWithTheReferenceBondByBond) {
         EXPECT_NEAR(s.largest_overlap, t.largest_overlap, 1e-10);
         overlap = std::max(overlap, s.largest_overlap);
         friction += s.friction;
-        if (option.share > 1.0 && repeat == 0) {
+        if (option.fraction > 1.0 && repeat == 0) {
           EXPECT_FALSE(a.broken.empty()) << option.name;
         }
       }
@@ -339,7 +339,7 @@ TEST(Turns, CosineAndSine) {
     discs.set_angle(0, angle);
     discs.refresh_record(0);
     const double half = 0.5 * angle;
-    const CosineSine exact = cosine_sine(discs.turn[0]);
+    const CosineSine exact = cosine_sine(discs.half_angle[0]);
     ASSERT_NEAR(exact.c, std::cos(half), 1e-15);
     ASSERT_NEAR(exact.s, std::sin(half), 1e-15);
     ASSERT_NEAR(static_cast<double>(discs.record[0].c), std::cos(half), 1.5e-7);

@@ -127,9 +127,10 @@ TEST(BondLaw, UnloadingAndReloadingAreSecant) {
   const BondLaw law = table1_law();
   const double reached = 1.06 * 1.529e-6;
   const double d = updated_damage(law, reached, 0.0, 1.0, 0.0);
-  for (const double share : {0.9, 0.5, 0.1, 0.0, 0.7, 0.999999}) {
-    EXPECT_EQ(updated_damage(law, share * reached, 0.0, 1.0, d), d);
-    EXPECT_NEAR(bond_force(law, {share * reached, 0.0, 0.0}, d).normal, 2.195e7 * (1.0 - d) * share * reached, 1e-12);
+  for (const double fraction : {0.9, 0.5, 0.1, 0.0, 0.7, 0.999999}) {
+    EXPECT_EQ(updated_damage(law, fraction * reached, 0.0, 1.0, d), d);
+    EXPECT_NEAR(bond_force(law, {fraction * reached, 0.0, 0.0}, d).normal, 2.195e7 * (1.0 - d) * fraction * reached,
+                1e-12);
   }
   EXPECT_GT(updated_damage(law, 1.0001 * reached, 0.0, 1.0, d), d);
   // Damage does not weaken compression by default; with `full` it does, and the contact spring grows instead.
@@ -183,8 +184,8 @@ TEST(BondLaw, CompressionShearBreakReleasesEnergy) {
   test::Uniform u(13);
   for (int k = 0; k < 5000; ++k) {
     const double l0 = u(0.4e-3, 1.5e-3), contact = u(0.4e-3, 1.0e-3), compression = u(0.0, 5e-6);
-    const double length = l0 - compression, touch = std::min(contact, l0);
-    const double overlap = std::max(0.0, touch - length);
+    const double length = l0 - compression, contact_distance = std::min(contact, l0);
+    const double overlap = std::max(0.0, contact_distance - length);
     const BondPoint p{-compression, u(-1e-5, 1e-5), overlap};
     const double before = bond_energy(law, p, 0.3), after = 0.5 * law.normal_stiffness * overlap * overlap;
     EXPECT_GE(before - after, -1e-18);

@@ -89,7 +89,7 @@ TEST(MaterialTests, FractureEnergyIsThatOfTheBondsAcross) {
     const MaterialOptions& material = request.options.material;
     const BondNetwork network = make_bond_network(sample, test::no_holes(sample), material, {}, 1, mean_diameter);
     double lengths = 0.0;
-    for (const double l : network.rest_length) lengths += l;
+    for (const double l : network.reference_length) lengths += l;
     const double expected = rigid_opening_work(material, lengths / (side * side));
     const MaterialTestResult result = run_material_test(request);
     ASSERT_EQ(result.status, results::RunStatus::completed) << result.reason;
@@ -122,7 +122,7 @@ TEST(MaterialTests, ServoKeepsTheSidesFree) {
 TEST(MaterialTests, StrengthIsProportionalToTheThresholds) {
   const geometry::Packing sample = test::jittered_packing(rows, diameter, 7);
   SolverOptions twice;
-  twice.material.critical_normal_stretch *= 2.0;
+  twice.material.critical_normal_displacement *= 2.0;
   twice.material.critical_shear_displacement *= 2.0;
   const auto a = run(MaterialTestKind::tension, sample, {});
   const auto b = run(MaterialTestKind::tension, sample, twice);
@@ -138,9 +138,9 @@ TEST(MaterialTests, YieldStrainOfTensionIsTheStretchOfAnAlignedBond) {
   options.material.reference_mean_diameter = diameter;
   const double length = 1e-3;
   EXPECT_NEAR(estimated_yield_strain(MaterialTestKind::tension, options, diameter, length),
-              options.material.critical_normal_stretch / length, 1e-12);
+              options.material.critical_normal_displacement / length, 1e-12);
   // Bonds that stretch without limit: shear decides; pure shear of a bond along x: l gamma/2 = delta_t0.
-  options.material.critical_normal_stretch = 1.0;
+  options.material.critical_normal_displacement = 1.0;
   EXPECT_NEAR(estimated_yield_strain(MaterialTestKind::shear, options, diameter, length),
               2.0 * options.material.critical_shear_displacement / length, 1e-4 * 1.5e-2);
 }

@@ -29,7 +29,7 @@ TEST(BondNetwork, MatchesBruteForce) {
     for (std::size_t b = 0; b < net.i.size(); ++b) {
       ASSERT_LT(net.i[b], net.j[b]);
       EXPECT_TRUE(found.insert({net.i[b], net.j[b]}).second);
-      EXPECT_NEAR(net.rest_length[b],
+      EXPECT_NEAR(net.reference_length[b],
                   distance(p, static_cast<std::size_t>(net.i[b]), static_cast<std::size_t>(net.j[b])), 1e-15);
     }
     std::size_t expected = 0;
@@ -90,7 +90,7 @@ TEST(BondNetwork, NoBondAcrossSmallHoles) {
 
 // Near pairs: mirrored rows, complete against brute force, right after a rebuild and as long as the list says it is
 // valid while discs move at random and the cell is compressed and sheared.
-TEST(NearPairs, CompleteUntilOutdated) {
+TEST(NeighbourList, CompleteUntilOutdated) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const geometry::Packing p = test::jittered_packing(13, 0.5e-3, seed);
     test::Uniform u(seed);
@@ -100,7 +100,7 @@ TEST(NearPairs, CompleteUntilOutdated) {
     CellMatrix cell{p.width, 0.0, p.height};
     for (std::size_t d = 0; d < p.x.size(); ++d)
       discs.sx[d] = fixed_point(p.x[d] / p.width), discs.sy[d] = fixed_point(p.y[d] / p.height);
-    NearPairs near;
+    NeighbourList near;
     near.configure(discs.size(), 0.24e-3, 0.15e-3);
     BondNetwork none;
     near.rebuild(discs, cell, none);
@@ -133,7 +133,8 @@ TEST(NearPairs, CompleteUntilOutdated) {
   }
 }
 
-// uniform_step keeps the total mass and lengthens the step in bonds and in contacts; physical masses are rho pi R^2 and m R^2/2.
+// uniform_step keeps the total mass and lengthens the step in bonds and in contacts; physical masses are rho pi R^2 and
+// m R^2/2.
 TEST(Masses, UniformStepKeepsTheTotal) {
   const geometry::Packing p = test::jittered_packing(10, 0.5e-3, 2);
   MaterialOptions material;

@@ -108,9 +108,9 @@ TEST(Specimen, BedsHoldWhatTheCutBondsHeld) {
   ASSERT_EQ(s.walls.size(), 2u);
   for (const WallPlace& wall : s.walls) {
     double held = 0.0;
-    for (const Bed& bed : wall.beds) {
-      held += bed.normal_stiffness;
-      const double y = packing.y[static_cast<std::size_t>(bed.disc)];
+    for (const FaceStiffness& face : wall.face_stiffness) {
+      held += face.normal_stiffness;
+      const double y = packing.y[static_cast<std::size_t>(face.disc)];
       EXPECT_LT(wall.side == WallSide::bottom ? y : packing.height - y, material.horizon * pitch);
     }
     EXPECT_NEAR(held, cut, 1e-9 * cut);

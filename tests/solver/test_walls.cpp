@@ -206,8 +206,8 @@ TEST(Walls, CheckpointGoesOnWithTheSameBits) {
         resumed.step();
       }
       EXPECT_GT(straight.events().size(), 50u);
-      const auto bedded = straight.walls().snapshot().bedded;
-      EXPECT_GT(std::count(bedded.begin(), bedded.end(), 1), 0);
+      const auto has_face_stiffness = straight.walls().snapshot().has_face_stiffness;
+      EXPECT_GT(std::count(has_face_stiffness.begin(), has_face_stiffness.end(), 1), 0);
       same_state(straight, resumed, "resumed");
     }
   std::filesystem::remove(file);

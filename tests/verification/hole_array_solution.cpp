@@ -1,4 +1,4 @@
-// What is here: see hole_array_solution.h. Kolosov's potentials (Muskhelishvili, "Some basic problems of the
+// What is here: the solution for holes in a plate by Kolosov's potentials (Muskhelishvili, "Some basic problems of the
 // mathematical theory of elasticity", 1953): 2 mu (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re
 // phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'); force on an arc ~ phi + z conj(phi') + conj(psi).
 #include "tests/verification/hole_array_solution.h"

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double diameter = 0.5e-3;
 
-void turn(solver::Simulation& s, std::size_t disc, double angle) {
+void half_angle(solver::Simulation& s, std::size_t disc, double angle) {
   s.discs().set_angle(disc, angle);
 }
 
@@ -22,7 +22,7 @@ double energy_of_turn(const solver::Simulation& s, int disc, int other, double a
   const solver::BondNetwork& net = s.network();
   for (std::size_t b = 0; b < net.i.size(); ++b) {
     const bool mine = net.i[b] == disc || net.j[b] == disc, pair = net.i[b] == other || net.j[b] == other;
-    if (mine && !pair) sum += net.rest_length[b] * net.rest_length[b];
+    if (mine && !pair) sum += net.reference_length[b] * net.reference_length[b];
   }
   return solver::MaterialOptions{}.tangential_stiffness * sum * angle * angle / 8.0;
 }
@@ -42,14 +42,14 @@ TEST(BondModes, OppositeTurnsOfOneBondAreFree) {
   p.radius = {0.4 * diameter, 0.5 * diameter};
   solver::Simulation s = test::make_simulation(p, undamped(), diameter);
   ASSERT_EQ(s.network().size(), 1);
-  const double l = s.network().rest_length[0], kt = solver::MaterialOptions{}.tangential_stiffness;
+  const double l = s.network().reference_length[0], kt = solver::MaterialOptions{}.tangential_stiffness;
   for (const double angle : {1e-3, 0.5, 3.0}) {
-    turn(s, 0, angle);
-    turn(s, 1, -angle);
+    half_angle(s, 0, angle);
+    half_angle(s, 1, -angle);
     s.refresh_records();
     expect_at_most("opposite turns by " + short_text(angle) + ": U/(k_t l^2)", s.ledger().elastic_bonds / (kt * l * l),
                    1e-28);
-    turn(s, 1, angle);
+    half_angle(s, 1, angle);
     s.refresh_records();
     const double shear = l * std::sin(angle);
     expect_close("equal turns by " + short_text(angle) + ": U/(k_t l^2 sin^2/2)",
@@ -67,8 +67,8 @@ TEST(BondModes, OppositeTurnsInANetCost) {
       solver::Simulation s = test::make_simulation(p, undamped(), diameter);
       const int i = s.network().i[bond], j = s.network().j[bond];
       constexpr double angle = 1e-3;
-      turn(s, static_cast<std::size_t>(i), angle);
-      turn(s, static_cast<std::size_t>(j), -angle);
+      half_angle(s, static_cast<std::size_t>(i), angle);
+      half_angle(s, static_cast<std::size_t>(j), -angle);
       s.refresh_records();
       const double expected = energy_of_turn(s, i, j, angle) + energy_of_turn(s, j, i, angle);
       worst = std::max(worst, std::fabs(s.ledger().elastic_bonds / expected - 1.0));
@@ -84,7 +84,7 @@ Eigen::MatrixXd stiffness(const solver::BondNetwork& net, int discs) {
   const solver::MaterialOptions material;
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * discs, 3 * discs);
   for (std::size_t b = 0; b < net.i.size(); ++b) {
-    const double nx = net.direction_x[b], ny = net.direction_y[b], half = 0.5 * net.rest_length[b] / diameter;
+    const double nx = net.direction_x[b], ny = net.direction_y[b], half = 0.5 * net.reference_length[b] / diameter;
     Eigen::VectorXd normal(6), shear(6);
     normal << -nx, -ny, 0.0, nx, ny, 0.0;
     shear << ny, -nx, -half, -ny, nx, -half;

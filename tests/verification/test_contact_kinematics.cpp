@@ -41,7 +41,7 @@ Carried carry(const CarriedPair& pair) {
       {{1e-3, 1e-3, radius, heavy, 0.0, 0.0, 0.0, 0.0}, {1e-3 + c.x0, 1e-3 + c.y0, radius, heavy, 0.0, 0.0, 0.0, 0.0}},
       cell, contact_options(friction, 0.0), dt);
   while (s.time() < strain) s.step();
-  solver::NearPairs pairs = s.near_pairs();
+  solver::NeighbourList pairs = s.neighbour_list();
   c.shear = pairs.find(0, 1)->history.shear;
   const solver::CellMatrix& h = s.cell();
   const double x = h.xx * c.x0 / size + h.xy * c.y0 / size, y = h.yy * c.y0 / size;
@@ -65,8 +65,8 @@ TEST(AffineContact, SpringIsThatOfTheBranch) {
     };
     const Carried across = carry({angle, {-1.0, 0.0, 0.0}});
     expect_close("xi/|r|, compression along x," + at, across.shear / length, kept_height(across) / length, tolerance);
-    const Carried lean = carry({angle, {0.0, 1.0, 0.0}});
-    expect_close("xi/|r|, simple shear," + at, lean.shear / length, kept_height(lean) / length, tolerance);
+    const Carried cell_shear = carry({angle, {0.0, 1.0, 0.0}});
+    expect_close("xi/|r|, simple shear," + at, cell_shear.shear / length, kept_height(cell_shear) / length, tolerance);
   }
 }
 
@@ -132,17 +132,19 @@ TEST(TouchingPair, KeepsItsAngularMomentum) {
 // A pair that turns as one rigid body about its middle, in light contact, has no relative motion at its contact: the
 // tangential spring stays empty. Turning makes the pair want to part: the centripetal force is what the overlap gives.
 TEST(TouchingPair, RigidTurnMakesNoFriction) {
-  const double mass = 4.3e-4, turn = 1e3, k = solver::MaterialOptions{}.normal_stiffness;
+  const double mass = 4.3e-4, half_angle = 1e3, k = solver::MaterialOptions{}.normal_stiffness;
   const double dt = 1e-8, apart = 2.0 * radius, size = 4e-3, middle = 0.5 * size;
   // No bond: nothing pulls, so a rigid turn lasts for one step only; what matters is that spin and orbit cancel.
-  solver::Simulation s = few_discs(
-      {{middle - 0.5 * apart * (1.0 - 1e-3), middle, radius, mass, 0.0, 0.0, -turn * 0.5 * apart * (1.0 - 1e-3), turn},
-       {middle + 0.5 * apart * (1.0 - 1e-3), middle, radius, mass, 0.0, 0.0, turn * 0.5 * apart * (1.0 - 1e-3), turn}},
-      fixed_cell(size, size), contact_options(1e6, 0.0), dt);
+  solver::Simulation s = few_discs({{middle - 0.5 * apart * (1.0 - 1e-3), middle, radius, mass, 0.0, 0.0,
+                                     -half_angle * 0.5 * apart * (1.0 - 1e-3), half_angle},
+                                    {middle + 0.5 * apart * (1.0 - 1e-3), middle, radius, mass, 0.0, 0.0,
+                                     half_angle * 0.5 * apart * (1.0 - 1e-3), half_angle}},
+                                   fixed_cell(size, size), contact_options(1e6, 0.0), dt);
   s.step();
-  solver::NearPairs pairs = s.near_pairs();
-  expect_at_most("xi over the way of the contact point", pairs.find(0, 1)->history.shear / (turn * dt * radius), 1e-9);
-  EXPECT_GT(k * 1e-3 * apart, mass * turn * turn * radius);
+  solver::NeighbourList pairs = s.neighbour_list();
+  expect_at_most("xi over the way of the contact point", pairs.find(0, 1)->history.shear / (half_angle * dt * radius),
+                 1e-9);
+  EXPECT_GT(k * 1e-3 * apart, mass * half_angle * half_angle * radius);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 /// S = sum l^2/area, and from it Voigt's constants for an isotropic net.
 double fabric(const Block& block, const solver::MaterialOptions& material) {
   double sum = 0.0;
-  for (const double l : bonds(block, material).rest_length) sum += l * l;
+  for (const double l : bonds(block, material).reference_length) sum += l * l;
   return sum / (block.layout.width * block.layout.height);
 }
 
@@ -48,8 +48,8 @@ TEST(ElasticConstants, BelowVoigtAndIsotropic) {
     const solver::ElasticResponse response = elastic(block, material);
     const solver::PlaneStiffness &c = response.stiffness, &v = response.affine_stiffness;
     const std::string at = ", H = " + short_text(horizon);
-    const double share = 0.5 * (c[0][0] + c[1][1]) / (0.5 * (v[0][0] + v[1][1]));
-    expect_between("C11 over Voigt's" + at, share, previous, 1.0);
+    const double fraction = 0.5 * (c[0][0] + c[1][1]) / (0.5 * (v[0][0] + v[1][1]));
+    expect_between("C11 over Voigt's" + at, fraction, previous, 1.0);
     expect_between("C66 over Voigt's" + at, c[2][2] / v[2][2], 0.0, 1.0);
     expect_between("bulk modulus over Voigt's" + at,
                    (c[0][0] + c[1][1] + 2.0 * c[0][1]) / (v[0][0] + v[1][1] + 2.0 * v[0][1]), 0.0, 1.0);
@@ -62,8 +62,9 @@ TEST(ElasticConstants, BelowVoigtAndIsotropic) {
     expect_close("C22 over C11, mean of four samples" + at, axes, 1.0, 0.03);
     expect_close("2 C66/(C11 - C12), mean of four samples" + at, shear, 1.0, 0.03);
     expect_close("C21 over C12 (symmetry)" + at, c[1][0] / c[0][1], 1.0, 1e-6);
-    table.push_back({horizon, share, c[2][2] / v[2][2], response.moduli.isotropic_poisson, 0.5 * (c[0][0] + c[1][1])});
-    previous = share;
+    table.push_back(
+        {horizon, fraction, c[2][2] / v[2][2], response.moduli.isotropic_poisson, 0.5 * (c[0][0] + c[1][1])});
+    previous = fraction;
   }
   write_table("horizon", {"horizon", "c11_over_voigt", "c66_over_voigt", "poisson", "c11"}, table);
 }
@@ -79,9 +80,9 @@ TEST(ElasticConstants, DoNotHangOnTheSampleSize) {
     for (int seed = 1; seed <= seeds; ++seed) {
       const solver::ElasticResponse response =
           elastic(make_block(plain(size * table1_diameter, size * table1_diameter), static_cast<std::uint64_t>(seed)));
-      const double share = response.stiffness[0][0] / response.affine_stiffness[0][0];
-      sum += share / seeds;
-      square += share * share / seeds;
+      const double fraction = response.stiffness[0][0] / response.affine_stiffness[0][0];
+      sum += fraction / seeds;
+      square += fraction * fraction / seeds;
     }
     if (large == 0.0)
       large = sum;
@@ -97,7 +98,7 @@ TEST(ElasticConstants, DoNotHangOnTheSampleSize) {
 /// it to rest: stress, tension positive.
 solver::Virial stress_after_hold(const Block& block, const solver::CellMatrix& strained, int steps) {
   solver::SolverOptions options;
-  options.material.critical_normal_stretch = options.material.critical_shear_displacement = 1.0;
+  options.material.critical_normal_displacement = options.material.critical_shear_displacement = 1.0;
   options.dynamics.kernel = solver::KernelChoice::reference;  // strains of 1e-6 need double precision
   geometry::Packing moved = block.clipped;
   const double w = block.layout.width, h = block.layout.height;

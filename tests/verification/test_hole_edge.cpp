@@ -50,7 +50,7 @@ std::vector<double> virials(const Block& block, std::size_t axis) {
                  shear = material.tangential_stiffness * (strain[0] * x.delta_t + strain[1] * y.delta_t);
     const double nx = net.direction_x[id], ny = net.direction_y[id];
     const double force = axis == 0 ? normal * nx - shear * ny : normal * ny + shear * nx;
-    const double half = 0.5 * force * net.rest_length[id] * (axis == 0 ? nx : ny);
+    const double half = 0.5 * force * net.reference_length[id] * (axis == 0 ? nx : ny);
     virial[static_cast<std::size_t>(net.i[id])] += half;
     virial[static_cast<std::size_t>(net.j[id])] += half;
   }

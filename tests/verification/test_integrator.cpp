@@ -17,7 +17,7 @@ solver::SolverOptions elastic_options(solver::KernelChoice kernel, double step_f
   options.dynamics.cundall_damping = 0.0;
   options.dynamics.kernel = kernel;
   options.dynamics.step_factor = step_factor;
-  options.material.critical_normal_stretch = options.material.critical_shear_displacement = 1.0;
+  options.material.critical_normal_displacement = options.material.critical_shear_displacement = 1.0;
   return options;
 }
 
@@ -49,8 +49,8 @@ End end_of(const solver::Simulation& s) {
 double difference(const End& a, const End& b) {
   double sum = 0.0;
   for (std::size_t d = 0; d < a.x.size(); ++d) {
-    const double dx = a.x[d] - b.x[d], dy = a.y[d] - b.y[d], turn = 0.5 * diameter * (a.angle[d] - b.angle[d]);
-    sum += dx * dx + dy * dy + turn * turn;
+    const double dx = a.x[d] - b.x[d], dy = a.y[d] - b.y[d], half_angle = 0.5 * diameter * (a.angle[d] - b.angle[d]);
+    sum += dx * dx + dy * dy + half_angle * half_angle;
   }
   return std::sqrt(sum / static_cast<double>(a.x.size()));
 }

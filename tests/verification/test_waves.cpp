@@ -13,7 +13,7 @@ constexpr double length = 100.0 * table1_diameter;  // one wave length
 
 solver::Simulation bar(const Block& block) {
   solver::SolverOptions options;
-  options.material.critical_normal_stretch = options.material.critical_shear_displacement = 1.0;
+  options.material.critical_normal_displacement = options.material.critical_shear_displacement = 1.0;
   options.dynamics.cundall_damping = 0.0;
   options.dynamics.mass = solver::MassScaling::physical;
   solver::SimulationInput input;
@@ -44,13 +44,13 @@ double measured_period(const Block& block, bool shear, double phase, std::vector
   double before = 1.0;
   while (zeros.size() < 5) {
     s.step();
-    double share = 0.0;
+    double fraction = 0.0;
     const auto& v = shear ? s.discs().vy : s.discs().vx;
-    for (std::size_t d = 0; d < v.size(); ++d) share += s.discs().mass[d] * v[d] * shape[d] / (norm * speed);
+    for (std::size_t d = 0; d < v.size(); ++d) fraction += s.discs().mass[d] * v[d] * shape[d] / (norm * speed);
     // Velocities belong to the half step; a shift of all passages alike does not matter.
-    if (before * share <= 0.0) zeros.push_back(s.time() - s.time_step() * share / (share - before));
-    before = share;
-    if (table != nullptr && s.steps() % 20 == 0) table->push_back({s.time(), share});
+    if (before * fraction <= 0.0) zeros.push_back(s.time() - s.time_step() * fraction / (fraction - before));
+    before = fraction;
+    if (table != nullptr && s.steps() % 20 == 0) table->push_back({s.time(), fraction});
   }
   return 0.5 * (zeros[4] - zeros[0]);
 }

@@ -1,4 +1,4 @@
-// What is here: see broken_hdf5.h. HDF5's C API because the project's own writer refuses to make such files.
+// What is here: HDF5 files with one fault each, made with the C API because the project's writer refuses to make them.
 #include "tests/app/bad_input/broken_hdf5.h"
 
 #include <hdf5.h>

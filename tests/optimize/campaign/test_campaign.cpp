@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "io/files.h"
 #include "io/journal.h"
 #include "io/progress.h"
 #include "tests/optimize/evaluate/design_support.h"

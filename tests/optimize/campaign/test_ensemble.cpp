@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/files.h"
 #include "io/journal.h"
 #include "tests/optimize/evaluate/design_support.h"
 

@@ -20,8 +20,8 @@ const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) 
 
 TEST(DesignFile, HasAllSections) {
   const DesignFile design;
-  const std::vector<std::string> wanted = {"cell",     "layout",   "packing",  "material", "noise", "loading",
-                                           "dynamics", "boundary", "measures", "output",   "test",  "seeds"};
+  const std::vector<std::string> wanted = {"cell",     "layout",   "packing",  "material", "noise",         "loading",
+                                           "dynamics", "boundary", "measures", "output",   "material_test", "seeds"};
   EXPECT_EQ(design.schema().section_names(), wanted);
 }
 
@@ -35,7 +35,7 @@ TEST(DesignFile, DefaultsAreTableOne) {
   EXPECT_DOUBLE_EQ(design.packing.mean_diameter, 0.5044e-3);
   EXPECT_DOUBLE_EQ(design.solver.material.normal_stiffness, 2.195e7);
   EXPECT_DOUBLE_EQ(design.solver.material.tangential_stiffness, 8.246e6);
-  EXPECT_DOUBLE_EQ(design.solver.material.critical_normal_stretch, 1.529e-6);
+  EXPECT_DOUBLE_EQ(design.solver.material.critical_normal_displacement, 1.529e-6);
   EXPECT_DOUBLE_EQ(design.solver.material.rupture_delay, 1.1);
   EXPECT_EQ(design.seeds.seed, 1);
 }

@@ -11,7 +11,8 @@ namespace perfora::optimize {
 namespace {
 
 ElasticFit small_fit() {
-  const DesignFile design = DesignFile::from_toml("[packing]\nsolid_fraction = 0.719\n[test]\nsize = 0.009\n", "text");
+  const DesignFile design =
+      DesignFile::from_toml("[packing]\nsolid_fraction = 0.719\n[material_test]\nsize = 0.009\n", "text");
   return ElasticFit(material_sample(design), 1, {});
 }
 

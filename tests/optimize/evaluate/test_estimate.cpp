@@ -33,7 +33,7 @@ TEST(Estimate, SolidBlockHasTheTexts23Bonds) {
 
 /// Mean number of neighbours within `radius` of points thrown at random outside the holes, over that of points
 /// everywhere.
-double random_share(const geometry::PerforationLayout& layout, double radius, unsigned seed) {
+double random_fraction(const geometry::PerforationLayout& layout, double radius, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const auto inside = [&](double x, double y) {
@@ -61,10 +61,10 @@ TEST(Estimate, ShareOfTheCircleInTheSolidMatchesRandomPairs) {
         0.05, 0.05, {{0.012, 0.013, geometry::Circle{diameter}}, {0.037, 0.036, geometry::Circle{diameter}}}};
     const geometry::PerforationLayout none{0.05, 0.05, {}};
     for (const double radius : {1.5e-3, 3e-3}) {
-      const double share =
+      const double fraction =
           expected_bonds_per_disc(layout, density, radius) / expected_bonds_per_disc(none, density, radius);
       // 400,000 pairs: standard error below 0.0008.
-      EXPECT_NEAR(share, random_share(layout, radius, 7), 0.003) << diameter << " " << radius;
+      EXPECT_NEAR(fraction, random_fraction(layout, radius, 7), 0.003) << diameter << " " << radius;
     }
   }
 }
@@ -117,7 +117,9 @@ TEST_P(EstimateOfARealPacking, Agrees) {
   request.mean_diameter = 0.5044e-3;
   const solver::RunEstimate counted = solver::estimate_run(request);
   const DesignEstimate estimate = estimate_design(file, 1);
-  const auto within = [](double found, double wanted, double share) { EXPECT_NEAR(found, wanted, share * wanted); };
+  const auto within = [](double found, double wanted, double fraction) {
+    EXPECT_NEAR(found, wanted, fraction * wanted);
+  };
   within(static_cast<double>(estimate.discs), static_cast<double>(counted.discs), 0.03);
   within(static_cast<double>(estimate.bonds), static_cast<double>(counted.bonds), 0.04);
   // The step is bounded by the lightest disc in contacts, and with uniform_step that is one at the edge of a hole, with

@@ -105,5 +105,15 @@ TEST_F(Evaluating, AWallTimeLimitStopsAndResumeGivesTheSameBits) {
   EXPECT_EQ(comparable(evaluate_design(file, options, 0)), comparable(straight));
 }
 
+TEST(Evaluation, FailureLeavesNothingReached) {
+  const auto record = results::to_json(failed_evaluation("packing not reached", 2), false);
+  EXPECT_EQ(record["status"], "failed");
+  EXPECT_EQ(record["reason"], "packing not reached");
+  EXPECT_TRUE(record["first_peak_stress"].is_null());
+  EXPECT_TRUE(record["plateau_stress"].is_null());
+  EXPECT_TRUE(record["solid_fraction"].is_null());
+  EXPECT_EQ(results::evaluation_from_json(record).status, results::RunStatus::failed);
+}
+
 }  // namespace
 }  // namespace perfora::optimize

@@ -49,12 +49,12 @@ TEST(Request, EveryKeyThatChangesThePathChangesTheKey) {
                                                  "output.checkpoint_interval",  // nor has a checkpoint
                                                  "loading.until",               // the path up to there is the same
                                                  "seeds.search",                // no simulation draws from it
-                                                 "test.size",
-                                                 "test.tension",  // of the tests of the solid material
-                                                 "test.compression",
-                                                 "test.shear",  //
-                                                 "test.oedometric",
-                                                 "test.past_peak"};
+                                                 "material_test.size",
+                                                 "material_test.tension",  // of the tests of the solid material
+                                                 "material_test.compression",
+                                                 "material_test.shear",  //
+                                                 "material_test.oedometric",
+                                                 "material_test.past_peak"};
   const std::string key = make_request(DesignFile(), 0).key();
   std::set<std::string> keys = {key}, found;
   const DesignFile defaults;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/toml.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"

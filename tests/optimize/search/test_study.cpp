@@ -37,7 +37,7 @@ std::vector<std::string> names(const Study& study) {
   return all;
 }
 
-std::vector<int> shares(const Study& study) {
+std::vector<int> fractions(const Study& study) {
   std::vector<int> all;
   for (const Arm& arm : study.arms) all.push_back(arm.maxeval);
   return all;
@@ -89,7 +89,7 @@ TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
   EXPECT_EQ(all[0], "family=square rows=1 columns=2");
   EXPECT_EQ(all[1], "family=square rows=2 columns=2");
   int sum = 0;
-  for (const int share : shares(study)) sum += share;
+  for (const int fraction : fractions(study)) sum += fraction;
   EXPECT_EQ(sum, 11);
   std::set<std::uint32_t> seeds;
   for (const Arm& arm : study.arms) seeds.insert(arm.seed);
@@ -101,7 +101,7 @@ TEST_F(StudyFile, TurnsAreArmsOfTheRotatedFamilyOnly) {
   const Study study = read(study_text("maxeval = 9", "family = [\"square\", \"rotated\"]\nturn = [0, 1, -2]"));
   EXPECT_EQ(names(study),
             (std::vector<std::string>{"family=square turn=0", "family=rotated turn=1", "family=rotated turn=-2"}));
-  EXPECT_EQ(shares(study), (std::vector<int>{3, 3, 3}));
+  EXPECT_EQ(fractions(study), (std::vector<int>{3, 3, 3}));
   int left_out = 0;
   for (const std::string& warning : study.warnings)
     left_out += has(warning, "is left out: its holes are those of arm family=square turn=0");
@@ -142,13 +142,13 @@ TEST_F(StudyFile, WholeNumbersInVariablesAreRanges) {
       "2e5\n[variables]\nlayout.diameter = [0.010, 0.012]\n"
       "layout.rows = [1, 3]\n");
   EXPECT_EQ(names(study), (std::vector<std::string>{"rows=1", "rows=2", "rows=3"}));
-  EXPECT_EQ(shares(study), (std::vector<int>{3, 2, 2}));
+  EXPECT_EQ(fractions(study), (std::vector<int>{3, 2, 2}));
 }
 
 TEST_F(StudyFile, TakesAListOfSharesAndStarts) {
   const Study study = read(study_text("maxeval = 12\nallocation = [4, 8]\nstarts = 2"));
   EXPECT_EQ(names(study), (std::vector<std::string>{"start=1", "start=2"}));
-  EXPECT_EQ(shares(study), (std::vector<int>{4, 8}));
+  EXPECT_EQ(fractions(study), (std::vector<int>{4, 8}));
   EXPECT_NE(study.arms[0].start, study.arms[1].start);
 }
 
@@ -157,7 +157,7 @@ TEST_F(StudyFile, SharesInProportionToWhatKeepsTheConstraints) {
   // half of that: all of them.
   const Study study =
       read(study_text("maxeval = 30\nallocation = \"proportional\"", "rows = [1, 2]", "porosity = [0.01, 0.38485]"));
-  const auto counts = shares(study);
+  const auto counts = fractions(study);
   EXPECT_EQ(counts[0] + counts[1], 30);
   EXPECT_NEAR(counts[0], 20, 1);
 }

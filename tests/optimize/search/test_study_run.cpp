@@ -6,6 +6,7 @@
 
 #include <csignal>
 
+#include "io/files.h"
 #include "io/journal.h"
 #include "io/progress.h"
 #include "optimize/search/study_result.h"
@@ -112,13 +113,13 @@ TEST_F(StudyRunTest, ATornLastLineCostsOneEvaluation) {
     expected = finish(run);
   }
   const std::string whole = io::read_file(folder / "torn/journal.jsonl");
-  for (const double share : {0.2, 0.5, 0.77, 0.999}) {
+  for (const double fraction : {0.2, 0.5, 0.77, 0.999}) {
     std::ofstream(folder / "torn/journal.jsonl", std::ios::binary | std::ios::trunc)
-        << whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
+        << whole.substr(0, static_cast<std::size_t>(fraction * static_cast<double>(whole.size())));
     WorkOptions again = options("torn");
     again.resume = true;
     StudyRun run(study(), again);
-    EXPECT_EQ(finish(run), expected) << share;
+    EXPECT_EQ(finish(run), expected) << fraction;
   }
 }
 

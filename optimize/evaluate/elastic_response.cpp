@@ -1,5 +1,5 @@
 // What is here: a design packed, bonded and solved for its linear response; the JSON and the file of what was found.
-#include "optimize/evaluate/elastic_answer.h"
+#include "optimize/evaluate/elastic_response.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void solve(const DesignFile& file, ElasticAnswer& answer) {
+void solve(const DesignFile& file, ElasticResponse& answer) {
   const solver::SolverOptions& options = file.design().solver;
   const geometry::Packing& clipped = answer.packed.clipped;
   const double mean_diameter = mean_diameter_of(file, answer.packed.periodic);
@@ -50,7 +50,7 @@ void solve(const DesignFile& file, ElasticAnswer& answer) {
   }
   answer.first_yield =
       solver::first_yield(answer.network, answer.response, solver::make_bond_law(options.material, mean_diameter));
-  answer.reason = "elastic answer found";
+  answer.reason = "elastic response found";
 }
 
 json rows(const solver::PlaneStiffness& stiffness, bool reached) {
@@ -68,7 +68,7 @@ struct Named {
   double value;
 };
 
-std::vector<Named> numbers_of(const ElasticAnswer& answer) {
+std::vector<Named> numbers_of(const ElasticResponse& answer) {
   const solver::PlaneModuli& m = answer.response.moduli;
   const solver::FirstYield& y = answer.first_yield;
   return {{"young_x", m.young_x},
@@ -89,11 +89,11 @@ std::vector<Named> numbers_of(const ElasticAnswer& answer) {
 }
 
 /// Middle of a bond in the undeformed cell, m.
-std::pair<double, double> place_of(const ElasticAnswer& answer, std::int32_t bond) {
+std::pair<double, double> place_of(const ElasticResponse& answer, std::int32_t bond) {
   const auto id = static_cast<std::size_t>(bond);
   const geometry::Packing& clipped = answer.packed.clipped;
   const auto i = static_cast<std::size_t>(answer.network.i[id]);
-  const double half = 0.5 * answer.network.rest_length[id];
+  const double half = 0.5 * answer.network.reference_length[id];
   const auto wrapped = [](double x, double period) { return x - period * std::floor(x / period); };
   return {wrapped(clipped.x[i] + half * answer.network.direction_x[id], clipped.width),
           wrapped(clipped.y[i] + half * answer.network.direction_y[id], clipped.height)};
@@ -103,7 +103,7 @@ const char* mode_name(results::BreakMode mode) {
   return mode == results::BreakMode::tension ? "tension" : "shear";
 }
 
-results::FirstBonds first_bonds_of(const ElasticAnswer& answer) {
+results::FirstBonds first_bonds_of(const ElasticResponse& answer) {
   results::FirstBonds first;
   for (const solver::YieldingBond& bond : answer.first_yield.first_bonds) {
     const auto [x, y] = place_of(answer, bond.bond);
@@ -125,9 +125,9 @@ std::vector<double> flat(const solver::PlaneStiffness& stiffness) {
 
 }  // namespace
 
-ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+ElasticResponse elastic_response(const DesignFile& design, const EvaluateOptions& options, int replicate) {
   const auto start = Clock::now();
-  ElasticAnswer answer;
+  ElasticResponse answer;
   answer.replicate = replicate;
   answer.seeds = design.design().seeds.effective(replicate);
   answer.packed = pack_design(design, options, replicate);
@@ -147,7 +147,7 @@ ElasticAnswer elastic_answer(const DesignFile& design, const EvaluateOptions& op
   return answer;
 }
 
-json to_json(const ElasticAnswer& answer) {
+json to_json(const ElasticResponse& answer) {
   const bool reached = answer.status == results::RunStatus::completed;
   json record = {{"schema", results::elastic_format},
                  {"status", results::status_name(answer.status)},
@@ -177,7 +177,7 @@ json to_json(const ElasticAnswer& answer) {
   return record;
 }
 
-void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticAnswer& answer,
+void write_elastic_file(const std::filesystem::path& path, const DesignFile& design, const ElasticResponse& answer,
                         const json& summary, const std::string& command_line) {
   results::ElasticResult elastic;
   elastic.provenance = provenance_of(design, answer.seeds, command_line);

@@ -1,6 +1,6 @@
-// What is here: the way of a small design to its elastic answer, its JSON and its file. Expected: agreement between
+// What is here: the way of a small design to its elastic response, its JSON and its file. Expected: agreement between
 // ways that must agree; the numbers themselves are checked in tests/solver/test_elastic*.cpp.
-#include "optimize/evaluate/elastic_answer.h"
+#include "optimize/evaluate/elastic_response.h"
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ class Elastic : public ::testing::Test {
   DesignFile design(const std::vector<std::string>& overrides = {}) const {
     return DesignFile(folder_.file("design.toml", small_design), overrides);
   }
-  static nlohmann::json comparable(const ElasticAnswer& answer) {
+  static nlohmann::json comparable(const ElasticResponse& answer) {
     auto record = to_json(answer);
     record.erase("performance");
     return record;
@@ -29,7 +29,7 @@ class Elastic : public ::testing::Test {
 
 TEST_F(Elastic, FileAndRecordHoldTheSame) {
   const DesignFile file = design();
-  const ElasticAnswer answer = elastic_answer(file, {}, 0);
+  const ElasticResponse answer = elastic_response(file, {}, 0);
   ASSERT_EQ(answer.status, results::RunStatus::completed);
   const nlohmann::json record = to_json(answer);
   write_elastic_file(folder_ / "e.h5", file, answer, record, "perfora evaluate --elastic");
@@ -48,16 +48,17 @@ TEST_F(Elastic, FileAndRecordHoldTheSame) {
 
 TEST_F(Elastic, SameDesignSameBitsOtherReplicateOtherBlock) {
   const DesignFile file = design();
-  const auto first = comparable(elastic_answer(file, {}, 0));
-  EXPECT_EQ(comparable(elastic_answer(file, {}, 0)), first);
-  EXPECT_NE(comparable(elastic_answer(file, {}, 1))["stiffness"], first["stiffness"]);
+  const auto first = comparable(elastic_response(file, {}, 0));
+  EXPECT_EQ(comparable(elastic_response(file, {}, 0)), first);
+  EXPECT_NE(comparable(elastic_response(file, {}, 1))["stiffness"], first["stiffness"]);
 }
 
 // Thresholds do not touch stiffness; halving both halves the first yield strain, for phi depends on their ratios alone.
 TEST_F(Elastic, FirstYieldScalesWithTheThresholds) {
-  const auto plain = comparable(elastic_answer(design(), {}, 0));
-  const auto weak = comparable(elastic_answer(
-      design({"material.critical_normal_stretch=0.7645e-6", "material.critical_shear_displacement=3.8998e-6"}), {}, 0));
+  const auto plain = comparable(elastic_response(design(), {}, 0));
+  const auto weak = comparable(elastic_response(
+      design({"material.critical_normal_displacement=0.7645e-6", "material.critical_shear_displacement=3.8998e-6"}), {},
+      0));
   EXPECT_EQ(plain["stiffness"], weak["stiffness"]);
   constexpr double rounding = 1e-12;
   const double strain = plain["first_yield_strain"].get<double>();
@@ -65,14 +66,15 @@ TEST_F(Elastic, FirstYieldScalesWithTheThresholds) {
 }
 
 TEST_F(Elastic, WithoutBondsThereIsNoBlock) {
-  EXPECT_THAT(complaint([&] {
-                static_cast<void>(elastic_answer(design({"material.horizon=1", "packing.solid_fraction=0.2"}), {}, 0));
-              }),
-              HasSubstr("no two discs are near enough"));
+  EXPECT_THAT(
+      complaint([&] {
+        static_cast<void>(elastic_response(design({"material.horizon=1", "packing.solid_fraction=0.2"}), {}, 0));
+      }),
+      HasSubstr("no two discs are near enough"));
 }
 
 TEST(ElasticRecord, WhatWasNotReachedIsNull) {
-  ElasticAnswer answer;
+  ElasticResponse answer;
   answer.status = results::RunStatus::failed;
   answer.reason = "packing not reached: too dense";
   const nlohmann::json record = to_json(answer);

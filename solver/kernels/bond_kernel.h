@@ -33,16 +33,16 @@ PERFORA_INLINE Floats half_integer_power_of(Floats base, int twice_exponent) {
 }
 
 template <bool quartic, bool weak>
-PERFORA_INLINE void sweep(BondSweep& task) {
+PERFORA_INLINE void run(BondTask& task) {
   const char* const base = reinterpret_cast<const char*>(task.record);
   const Group* const groups = reinterpret_cast<const Group*>(task.groups);
-  const float k_n = task.normal_stiffness, k_t = task.tangential_stiffness, lean = task.lean, height = task.height,
-              stretch = task.rest_stretch, fraction = task.rest_fraction_unit, twice_g_xy = task.twice_g_xy,
-              g_yy = task.g_yy, g_yy_rest = task.g_yy_rest;
-  const float normal_share = task.normal_share, shear_share = task.shear_share;
+  const float k_n = task.normal_stiffness, k_t = task.tangential_stiffness, cell_shear = task.cell_shear,
+              height = task.height, stretch = task.reference_scale, fraction = task.length_residual_unit,
+              twice_g_xy = task.twice_g_xy, g_yy = task.g_yy, g_yy_residual = task.g_yy_residual;
+  const float normal_scale = task.normal_scale, shear_scale = task.shear_scale;
   const float half_unit = static_cast<float>(0.5 * task.unit);
   const std::uint16_t* const thresholds = task.threshold;
-  const std::int8_t* const rest_fractions = task.rest_fraction;
+  const std::int8_t* const length_residuals = task.length_residual;
   const std::uint8_t* const damaged = task.damaged;
   // Keeps 1/|r| of an empty lane, whose neighbour is its own disc, finite; far below the rounding of a real |r|^2.
   const Floats tiny = splat(1e-3f);
@@ -65,29 +65,29 @@ PERFORA_INLINE void sweep(BondSweep& task) {
       const Fields other = load_records(base, group.neighbour);
       const Floats dx = __builtin_convertvector(Ints(Unsigned(other.x) - Unsigned(own.x)), Floats),
                    dy = __builtin_convertvector(Ints(Unsigned(other.y) - Unsigned(own.y)), Floats);
-      const Floats rx = dx + lean * dy, ry = height * dy;
+      const Floats rx = dx + cell_shear * dy, ry = height * dy;
       const Floats e0x = load(group.e0x), e0y = load(group.e0y), l0 = load(group.l0) * stretch;
       const Floats cosine = own.c * other.c - own.s * other.s;
       const Floats sine = rounded(own.s * other.c) + rounded(own.c * other.s);  // fused, it would depend on the end
       const Floats ex = cosine * e0x - sine * e0y, ey = sine * e0x + cosine * e0y;
-      const Floats square = dy * (g_yy * dy + (twice_g_xy * dx + g_yy_rest * dy)) + (dx * dx + tiny);
+      const Floats square = dy * (g_yy * dy + (twice_g_xy * dx + g_yy_residual * dy)) + (dx * dx + tiny);
       const Floats guess = inverse_root(square);
       const Floats length = rounded(guess * square);  // the correction is that of the rounded one
       const Floats correction = 0.5f * guess * (square - length * length);
-      const Floats delta_n = (length - l0) + (correction - fraction * load(rest_fractions + slot));
+      const Floats delta_n = (length - l0) + (correction - fraction * load(length_residuals + slot));
       const Floats inverse = guess + guess * (guess * correction);
       const Floats delta_t = ex * ry - ey * rx, along = ex * rx + ey * ry;
 
       const Floats threshold = load(thresholds + slot);
-      const Floats share_t = delta_t * (threshold * shear_share);
+      const Floats scaled_t = delta_t * (threshold * shear_scale);
       Floats power;
       if constexpr (quartic) {
-        const Floats s = share_t * share_t;
+        const Floats s = scaled_t * scaled_t;
         power = s * s;
       } else {
-        power = half_integer_power_of(magnitude(share_t), task.twice_alpha);
+        power = half_integer_power_of(magnitude(scaled_t), task.twice_alpha);
       }
-      const Floats reached = delta_n * (threshold * normal_share) + power;
+      const Floats reached = delta_n * (threshold * normal_scale) + power;
       Floats per_length = k_n * delta_n * inverse, shear = k_t * delta_t;
       std::uint32_t off_path = above(reached, yield_watch);
       if (damaged[g] != 0) {
@@ -141,17 +141,17 @@ PERFORA_INLINE void sweep(BondSweep& task) {
                  task.unit * static_cast<double>(sum(virial_yy))};
 }
 
-void quartic(BondSweep& task) {
-  sweep<true, false>(task);
+void quartic(BondTask& task) {
+  run<true, false>(task);
 }
-void general(BondSweep& task) {
-  sweep<false, false>(task);
+void general(BondTask& task) {
+  run<false, false>(task);
 }
-void quartic_weak(BondSweep& task) {
-  sweep<true, true>(task);
+void quartic_weak(BondTask& task) {
+  run<true, true>(task);
 }
-void general_weak(BondSweep& task) {
-  sweep<false, true>(task);
+void general_weak(BondTask& task) {
+  run<false, true>(task);
 }
 
 }  // namespace

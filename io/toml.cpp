@@ -20,9 +20,10 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-#include "io/journal.h"
+#include "io/files.h"
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/toml.h"
 
 namespace perfora::io {
 namespace {

@@ -1,6 +1,6 @@
 // What is here: the loop over the contact ends of a chunk, one disc a lane, in single precision; included once for each
-// instruction set. What is not: which pairs are near (near_pairs.h), the law in double precision (laws.h), which this
-// loop follows line by line.
+// instruction set. What is not: which pairs are near (neighbour_list.h), the law in double precision (laws.h), which
+// this loop follows line by line.
 #pragma once
 
 #include "solver/kernels/simd.h"
@@ -16,7 +16,7 @@ PERFORA_INLINE Floats larger(Floats a, Floats b) {
 }
 
 /// An open pair is one whose forces are all zero: what its springs held is then counted as lost by the same lines.
-void sweep_contacts(ContactSweep& task) {
+void contacts(ContactTask& task) {
   const char* const places = reinterpret_cast<const char*>(task.record);
   const char* const motions = reinterpret_cast<const char*>(task.motion);
   const float k_n = task.normal_stiffness, k_t = task.tangential_stiffness, mu = task.friction_coefficient,
@@ -56,11 +56,11 @@ void sweep_contacts(ContactSweep& task) {
       const Floats lever_i = length * (own_radius / sum_radii), lever_j = length - lever_i;
       const Floats v_t = (uy * nx - ux * ny) - (lever_i * own_omega + lever_j * motion.c);
 
-      Floats touch = load(task.touch + slot);
+      Floats contact_distance = load(task.contact_distance + slot);
       // After a break a pair touches at l0 until it has once separated; an empty place (touch 0) stays empty.
-      touch = (length > sum_radii) & (touch > 0.0f) ? sum_radii : touch;
-      store(task.touch + slot, touch);
-      const Floats overlap = larger(touch - length, zero);
+      contact_distance = (length > sum_radii) & (contact_distance > 0.0f) ? sum_radii : contact_distance;
+      store(task.contact_distance + slot, contact_distance);
+      const Floats overlap = larger(contact_distance - length, zero);
       const Floats elastic = k_n * overlap;
       const Floats pressed = larger(elastic - load(task.damping + slot) * v_n, zero);
       const Floats normal = overlap > 0.0f ? pressed : zero;
@@ -70,7 +70,7 @@ void sweep_contacts(ContactSweep& task) {
       store(task.viscous_force + slot, viscous_force);
 
       const Floats old_shear = load(task.shear + slot);
-      const Floats active = touch > 0.0f ? splat(1.0f) : zero;
+      const Floats active = contact_distance > 0.0f ? splat(1.0f) : zero;
       const Floats trial = active * (old_shear + v_t * dt);
       const Floats limit = mu * normal * per_k_t;  // on the spring: one that sticks keeps its length to the last bit
       const Floats new_shear = trial > limit ? limit : (trial < -limit ? -limit : trial);

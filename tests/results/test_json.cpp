@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "optimize/evaluate/evaluation.h"
+#include "results/json.h"
 
-namespace perfora::optimize {
+namespace perfora::results {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -116,15 +116,5 @@ TEST(Json, ComesBackWithTheSameBits) {
   EXPECT_EQ(to_json(again, true), record);
 }
 
-TEST(Json, FailureLeavesNothingReached) {
-  const auto record = to_json(failed_evaluation("packing not reached", 2), false);
-  EXPECT_EQ(record["status"], "failed");
-  EXPECT_EQ(record["reason"], "packing not reached");
-  EXPECT_TRUE(record["first_peak_stress"].is_null());
-  EXPECT_TRUE(record["plateau_stress"].is_null());
-  EXPECT_TRUE(record["solid_fraction"].is_null());
-  EXPECT_EQ(results::evaluation_from_json(record).status, results::RunStatus::failed);
-}
-
 }  // namespace
-}  // namespace perfora::optimize
+}  // namespace perfora::results

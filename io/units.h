@@ -1,0 +1,19 @@
+// What is here: units: texts with a unit into SI, the units of a dimension. What is not: numbers for people (text.h).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/schema.h"
+
+namespace perfora::io {
+
+/// Converts "20 mm", "2 MPa", "25 %" or a plain number to SI for the given dimension. Throws InputError (with
+/// `origin`).
+double parse_quantity(const Value& value, Dimension dimension, const Origin& origin);
+/// SI unit of a dimension as printed: "m", "Pa", "N/m", ...; "" for none and ratio.
+std::string_view si_unit(Dimension dimension);
+/// The unit names accepted for a dimension, for messages.
+std::string accepted_units(Dimension dimension);
+
+}  // namespace perfora::io
