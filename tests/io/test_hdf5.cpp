@@ -253,5 +253,16 @@ TEST_F(Hdf5, SeveralThreadsMayReadAndWrite) {
   for (std::thread& thread : threads) thread.join();
 }
 
+// HDF5 keeps a setting for its own messages in every thread.
+TEST_F(Hdf5, FailuresAreSilentInEveryThread) {
+  const auto foreign = folder / "foreign.h5";
+  write_file(foreign, "no HDF5");
+  const auto open = [&] { static_cast<void>(Hdf5Reader(foreign)); };
+  EXPECT_NE(error_of(open), "");
+  std::string said;
+  std::thread([&] { said = error_of(open); }).join();
+  EXPECT_NE(said, "");
+}
+
 }  // namespace
 }  // namespace perfora::io
