@@ -17,6 +17,7 @@
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration_search.h"
 #include "optimize/search/study.h"
+#include "results/describe.h"
 #include "results/summary_text.h"
 
 namespace perfora::app {
@@ -85,12 +86,6 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
   }
   log_warnings(warnings);
   return exit_ok;
-}
-
-bool has_section(const std::filesystem::path& path, const std::string& section) {
-  for (const io::Entry& entry : io::read_toml(path))
-    if (entry.key.starts_with(section + ".")) return true;
-  return false;
 }
 
 int check_design(const CheckFlags& flags) {
@@ -193,13 +188,14 @@ void add_check(CLI::App& program, int& exit_code) {
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
-    if (!flags->only.empty() && !has_section(flags->file, "sweep"))
+    const std::string kind = results::kind_of_toml(flags->file);
+    if (!flags->only.empty() && kind != "sweep")
       throw io::InputError({flags->file, 0, "--only"}, "chooses cases of a sweep, and this is none", "",
                            "leave it out");
-    exit_code = has_section(flags->file, "study")       ? check_study_file(*flags)
-                : has_section(flags->file, "sweep")     ? check_sweep(*flags)
-                : has_section(flags->file, "calibrate") ? check_calibration(*flags)
-                                                        : check_design(*flags);
+    exit_code = kind == "study"         ? check_study_file(*flags)
+                : kind == "sweep"       ? check_sweep(*flags)
+                : kind == "calibration" ? check_calibration(*flags)
+                                        : check_design(*flags);
   });
 }
 

@@ -191,8 +191,8 @@ void ProgressLine::finish(const std::string& detail) {
   progress_.reset();
 }
 
-std::function<void(double, const std::string&)> ProgressLine::callback() {
-  return [this](double fraction, const std::string& detail) { update(fraction, detail); };
+results::ProgressCallback ProgressLine::callback() {
+  return [this](const results::Progress& progress) { update(progress.fraction, progress.text); };
 }
 
 std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback) {

@@ -13,6 +13,7 @@
 
 #include "io/cancellation.h"
 #include "io/progress.h"
+#include "results/progress.h"
 #include "results/status.h"
 
 namespace perfora::app {
@@ -76,7 +77,7 @@ class ProgressLine {
   ProgressLine(std::string title, bool quiet);
   void update(double fraction, const std::string& detail);
   void finish(const std::string& detail);
-  std::function<void(double, const std::string&)> callback();
+  results::ProgressCallback callback();
 
  private:
   std::string title_;

@@ -13,7 +13,7 @@
 #include "io/text.h"
 #include "optimize/campaign/ensemble.h"
 #include "optimize/evaluate/elastic_response.h"
-#include "optimize/evaluate/evaluation.h"
+#include "optimize/evaluate/run_output.h"
 
 namespace perfora::app {
 
@@ -57,50 +57,19 @@ void say_how_it_ended(results::RunStatus status, const std::string& reason, cons
   if (status == results::RunStatus::failed) io::log_error(fmt::format("the evaluation failed: {}", reason));
 }
 
-/// What the run itself says against its numbers (docs/user/theory.md, "Ledger").
-std::vector<std::string> validity_warnings(const optimize::Evaluation& evaluation,
-                                           const solver::LoadingOptions& loading) {
-  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05;
-  const results::Summary& s = evaluation.summary;
-  std::vector<std::string> warnings;
-  if (s.max_overlap_in_run > small_overlap)
-    warnings.push_back(
-        fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
-                    "discs can bear; "
-                    "take the stress of the last strains as a lower bound",
-                    io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
-  if (s.kinetic_ratio_at_peak > small_kinetic_fraction)
-    warnings.push_back(fmt::format(
-        "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
-        io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
-  if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
-    warnings.push_back(
-        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} requested: the block is stiffer "
-                    "or weaker than "
-                    "estimated; raise loading.transits",
-                    s.transits_before_peak, loading.transits));
-  return warnings;
-}
-
 int evaluate_one(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
-  const std::vector<std::string> warnings = design.validate();
-  const auto output = output_or_default(flags.output, default_name(flags.design, ".h5"));
-  if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
-  check_run_output(output, flags.common.force, flags.resume);
-  if (flags.resume)
-    static_cast<void>(optimize::finished_evaluation(design, output, 0));  // refuses another design's run
-  log_warnings(warnings);
   ProgressLine progress("compression", flags.common.quiet);
   optimize::EvaluateOptions options = evaluate_options(flags, progress);
-  options.run_file = output;
+  options.run_file = output_or_default(flags.output, default_name(flags.design, ".h5"));
+  log_warnings(optimize::prepare_evaluation(design, options, 0, flags.common.force));
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
-  if (std::filesystem::exists(output)) write_beside(output);
-  log_warnings(validity_warnings(evaluation, design.design().solver.loading));
+  if (std::filesystem::exists(options.run_file)) write_beside(options.run_file);
+  log_warnings(optimize::validity_warnings(evaluation, design.design().solver.loading));
   const auto record = results::to_json(evaluation, false);
   print_record(record, flags.common.json);
-  say_how_it_ended(evaluation.status, evaluation.reason, output.string(), "the same command and --resume");
+  say_how_it_ended(evaluation.status, evaluation.reason, options.run_file.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);
 }
 

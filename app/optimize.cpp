@@ -8,9 +8,7 @@
 #include "app/common.h"
 #include "app/outputs.h"
 #include "app/workers.h"
-#include "io/hdf5.h"
 #include "io/text.h"
-#include "optimize/evaluate/evaluation.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
@@ -49,30 +47,17 @@ void announce(const optimize::Study& study) {
                            study.target.window[1], study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
 }
 
-/// Whether the run file there is of this very design.
-bool is_run_of(const fs::path& run_file, const optimize::DesignFile& design) {
-  return optimize::same_configuration(io::Hdf5Reader(run_file).text("/config"), design);
-}
-
-/// The best design once more (replicate 0) with its frames: best.h5, its CSV and XDMF. The search itself keeps coarse
-/// curves only.
+/// The best design once more with its frames: best.h5, its CSV and XDMF.
 results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run) {
-  const optimize::DesignFile design = optimize::design_of(run.study(), *run.plan().best);
-  const fs::path run_file = run.options().folder / "best.h5";
-  if (fs::exists(run_file) && !is_run_of(run_file, design)) {  // an earlier best, before maxeval was raised
-    fs::remove(run_file);
-    fs::remove_all(run.options().folder / "best.part");
-  }
   ProgressLine progress("best design", flags.common.quiet);
   optimize::EvaluateOptions options;
   options.threads = flags.common.thread_count();
-  options.run_file = run_file;
-  options.resume = true;
   options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
-  const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
+  const optimize::Evaluation evaluation = optimize::evaluate_best(run, options);
   progress.finish(evaluation.reason);
+  const fs::path run_file = run.options().folder / "best.h5";
   if (fs::exists(run_file)) write_beside(run_file);
   return evaluation.status;
 }

@@ -1,13 +1,9 @@
 // What is here: `perfora pack`: design -> P.h5. What is not: how packings are made (geometry).
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "app/commands.h"
 #include "app/common.h"
-#include "io/memory.h"
 #include "io/text.h"
-#include "optimize/evaluate/evaluation.h"
 #include "optimize/evaluate/pack_file.h"
 
 namespace perfora::app {
@@ -29,20 +25,14 @@ int pack(const PackFlags& flags) {
   check_new_output(output, flags.common.force);
   log_warnings(warnings);
 
-  const auto start = std::chrono::steady_clock::now();
   ProgressLine progress("packing", flags.common.quiet);
   optimize::EvaluateOptions options;
   options.threads = flags.common.thread_count();
   options.command_line = command_line();
   options.progress = progress.callback();
-  const optimize::PackedDesign packed = optimize::pack_design(design, options, 0);
-  results::Performance performance;
-  performance.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  performance.threads = options.threads;
-  performance.peak_memory = io::peak_memory_bytes();
+  const auto [packed, performance, record] = optimize::pack_with_record(design, options, 0);
   progress.finish(fmt::format("{} discs in {}", io::count(packed.summary.discs), io::duration(performance.seconds)));
 
-  const auto record = optimize::pack_record(packed, design.design().seeds.effective(0), performance);
   const bool reached = packed.periodic.quality.reached;
   if (reached) optimize::write_pack_file(output, design, packed, record, command_line());
   print_record(record, flags.common.json);

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-
-#include "io/progress.h"
 
 namespace perfora::app {
 
@@ -17,16 +14,7 @@ constexpr int most_workers = 4096;
 }  // namespace
 
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads) {
-  const int each = std::max(1, threads / workers);
-  return [workers, each] {
-    optimize::ChildOptions children;
-    children.command = {std::filesystem::read_symlink("/proc/self/exe").string(), "worker", "--quiet", "--threads",
-                        std::to_string(each)};
-    children.workers = workers;
-    io::log_info(
-        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", each, each == 1 ? "" : "s"));
-    return optimize::make_child_executor(std::move(children));
-  };
+  return optimize::worker_processes(std::filesystem::read_symlink("/proc/self/exe"), workers, threads);
 }
 
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {

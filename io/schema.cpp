@@ -179,19 +179,22 @@ const Key* Schema::find(std::string_view given_name) const {
   return nullptr;
 }
 
+const Key& Schema::at(std::string_view given_name, Origin origin) const {
+  if (const Key* key = find(given_name)) return *key;
+  const std::string full_name = name_today(given_name);
+  origin.key = given_name;
+  const std::vector<std::string> sections = section_names();
+  const SplitName given = split(full_name, sections);
+  if (std::find(sections.begin(), sections.end(), given.section) == sections.end())
+    refuse_section(given, keys_, sections, origin);
+  refuse_name(given, keys_, origin);
+}
+
 void Schema::set(std::string_view given_name, const Value& value, Origin origin) {
   const std::string full_name = name_today(given_name);
   origin.key = given_name;
   if (origin.line == 0) origin.line = value.line;
-  const Key* key = find(full_name);
-  if (key == nullptr) {
-    const std::vector<std::string> sections = section_names();
-    const SplitName given = split(full_name, sections);
-    if (std::find(sections.begin(), sections.end(), given.section) == sections.end())
-      refuse_section(given, keys_, sections, origin);
-    refuse_name(given, keys_, origin);
-  }
-  key->set(value, origin);
+  at(given_name, origin).set(value, origin);
   if (full_name != given_name) note_old_name(origin);
   const auto same = [full_name](const auto& entry) { return entry.first == full_name; };
   const auto known = std::find_if(origins_.begin(), origins_.end(), same);
@@ -211,11 +214,10 @@ void Schema::set_number(std::string_view full_name, double value, Origin origin)
 }
 
 double Schema::get_number(std::string_view full_name) const {
-  const Key* key = find(full_name);
-  if (key == nullptr || !key->numeric())
-    throw InputError({"", 0, std::string(full_name)}, key == nullptr ? "unknown key" : "is not a number",
-                     "a key that holds one number is wanted");
-  const Value value = key->get();
+  const Key& key = at(full_name);
+  if (!key.numeric())
+    throw InputError({"", 0, std::string(full_name)}, "is not a number", "a key that holds one number is wanted");
+  const Value value = key.get();
   if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*whole);
   return std::get<double>(value.data);
 }

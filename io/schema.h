@@ -145,6 +145,9 @@ class Schema {
   /// nullptr when there is no such key. Takes old names, as all functions here do that are given a name.
   const Key* find(std::string_view full_name) const;
 
+  /// The key of that name. Throws InputError naming the nearest one where there is none.
+  const Key& at(std::string_view full_name, Origin origin = {}) const;
+
   /// Old names that are still taken: of a key ("material.critical_normal_stretch") or of a section ("test"). This is
   /// the one place where names are resolved: files, --set, variables, arms, headers of journals, stored configurations.
   void renamed(Renaming renaming) { renamings_.push_back(std::move(renaming)); }

@@ -217,6 +217,12 @@ std::string_view si_unit(Dimension dimension) {
   return facts(dimension).si;
 }
 
+std::string_view dimension_name(Dimension dimension) {
+  if (dimension == Dimension::none) return "";
+  const std::string_view with_article = facts(dimension).name;
+  return with_article.substr(with_article.find(' ') + 1);
+}
+
 std::string accepted_units(Dimension dimension) {
   std::vector<std::string> names;
   for (const Unit& unit : facts(dimension).units)

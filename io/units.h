@@ -13,6 +13,8 @@ namespace perfora::io {
 double parse_quantity(const Value& value, Dimension dimension, const Origin& origin);
 /// SI unit of a dimension as printed: "m", "Pa", "N/m", ...; "" for none and ratio.
 std::string_view si_unit(Dimension dimension);
+/// Name of a dimension: "length", "energy density", ...; "" for none.
+std::string_view dimension_name(Dimension dimension);
 /// The unit names accepted for a dimension, for messages.
 std::string accepted_units(Dimension dimension);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <map>
@@ -115,13 +116,20 @@ std::string describe_journal(const std::filesystem::path& path) {
   return text;
 }
 
+std::string kind_of_entries(const std::vector<io::Entry>& entries) {
+  static const std::pair<const char*, const char*> sections[] = {
+      {"study.", "study"}, {"sweep.", "sweep"}, {"calibrate.", "calibration"}};
+  for (const auto& [section, kind] : sections)
+    if (std::any_of(entries.begin(), entries.end(),
+                    [&](const io::Entry& entry) { return entry.key.starts_with(section); }))
+      return kind;
+  return "design";
+}
+
 std::string describe_toml(const std::filesystem::path& path) {
   const std::vector<io::Entry> entries = io::read_toml(path);
-  const auto has = [&](const char* section) {
-    return std::any_of(entries.begin(), entries.end(),
-                       [&](const io::Entry& entry) { return entry.key.starts_with(section); });
-  };
-  const char* kind = has("study.") ? "Study" : has("sweep.") ? "Sweep" : has("calibrate.") ? "Calibration" : "Design";
+  std::string kind = kind_of_entries(entries);
+  kind.front() = static_cast<char>(std::toupper(kind.front()));
   std::string text =
       fmt::format("{} {}: {} keys set; `perfora check` says what it would run\n", kind, path.string(), entries.size());
   std::string section;
@@ -175,6 +183,10 @@ std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path) 
   const io::Hdf5Reader file(path);
   if (!file.has("/summary")) return std::nullopt;
   return parse_summary(file.text("/summary"), path);
+}
+
+std::string kind_of_toml(const std::filesystem::path& path) {
+  return kind_of_entries(io::read_toml(path));
 }
 
 std::string describe_file(const std::filesystem::path& path) {

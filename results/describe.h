@@ -14,6 +14,10 @@ namespace perfora::results {
 /// that is broken or not Perfora's.
 std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path);
 
+/// What a TOML file is, by its sections: "study", "sweep", "calibration" or "design". Throws io::InputError for a file
+/// that cannot be read.
+std::string kind_of_toml(const std::filesystem::path& path);
+
 /// Aligned lines about what has no summary: a checkpoint (checkpoint.h5), a journal (journal.jsonl), a design or study
 /// (TOML), the companion of an XDMF file, or the folder of work that goes on. Read only: takes no lock, repairs
 /// nothing. Throws io::InputError for anything else, saying what can be read.

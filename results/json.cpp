@@ -85,8 +85,9 @@ void read_thinnest_wall(const json& record, geometry::ThinnestWall& thinnest) {
 }
 
 void read_measures(const json& record, PackSummary& pack, Summary& summary) {
-  for (const Measure& measure : measures()) std::visit(Setter{record, measure.key, pack, summary}, measure.member);
-  read_thinnest_wall(record, pack.thinnest_wall);
+  pack = pack_summary_from_json(record);
+  for (const Measure& measure : measures())
+    if (!measure.of_packing()) std::visit(Setter{record, measure.key, pack, summary}, measure.member);
   for (const json& peak : record.value("peaks", json::array()))
     summary.peaks.push_back({peak.at(0).get<double>(), peak.at(1).get<double>()});
   summary.plateau_start = record.at("plateau_window").at(0).get<double>();
@@ -182,6 +183,15 @@ Evaluation evaluation_from_json(const json& record) {
       if (const auto values = curve->find(column.name); values != curve->end())
         evaluation.curve.*column.values = numbers_from(*values);
   return evaluation;
+}
+
+PackSummary pack_summary_from_json(const json& record) {
+  PackSummary pack;
+  Summary none;
+  for (const Measure& measure : measures())
+    if (measure.of_packing()) std::visit(Setter{record, measure.key, pack, none}, measure.member);
+  read_thinnest_wall(record, pack.thinnest_wall);
+  return pack;
 }
 
 }  // namespace perfora::results

@@ -23,5 +23,7 @@ nlohmann::json to_json(const EffectiveSeeds& seeds);
 nlohmann::json to_json(const Evaluation& evaluation, bool with_curve);
 /// Throws nlohmann::json::exception or std::invalid_argument for anything but such a record.
 Evaluation evaluation_from_json(const nlohmann::json& record);
+/// Of the record of a packing or an evaluation; throws alike.
+PackSummary pack_summary_from_json(const nlohmann::json& record);
 
 }  // namespace perfora::results

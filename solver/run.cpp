@@ -269,10 +269,11 @@ class Run {
     if (request_.progress) {
       const double elapsed = seconds_since(started_);
       const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
-      request_.progress(
-          static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
-          fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * simulation_->strain(),
-                      io::quantity(progress_.history.stress_yy.back(), io::Dimension::stress), io::count(rate)));
+      const double strain = simulation_->strain(), stress = progress_.history.stress_yy.back();
+      request_.progress({static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
+                         fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * strain,
+                                     io::quantity(stress, io::Dimension::stress), io::count(rate)),
+                         strain, stress});
     }
   }
 

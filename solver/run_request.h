@@ -11,6 +11,7 @@
 #include "geometry/perforation.h"
 #include "io/cancellation.h"
 #include "results/history.h"
+#include "results/progress.h"
 #include "results/provenance.h"
 #include "results/summary.h"
 #include "solver/options.h"
@@ -38,8 +39,7 @@ struct RunRequest {
   io::Cancellation cancellation;  ///< requested: a checkpoint is written, the run stops with reason "signal"
   /// /summary of R.h5, made from the finished response (what `perfora evaluate --json` prints). May be empty.
   std::function<nlohmann::json(const Response&)> summary;
-  /// Called at history rows: fraction done and a line with strain, stress, rate. May be empty.
-  std::function<void(double, const std::string&)> progress;
+  results::ProgressCallback progress;  ///< called at history rows; may be empty
 };
 
 struct Response {

@@ -163,6 +163,7 @@ bool EvaluationQueue::run(Campaign& campaign) {
     for (const Asked& asked : wanted)
       if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
     std::optional<Answer> answer = executor->next(look_interval);
+    if (options_.progress) options_.progress({static_cast<std::int64_t>(answers_.size()), campaign.remaining()});
     stopped = options_.cancellation.requested();
     if (!answer || answer->evaluation.status == results::RunStatus::stopped) {
       if (answer) interrupted_ = std::move(answer->evaluation);

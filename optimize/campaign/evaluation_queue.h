@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -33,6 +34,12 @@ struct Asked {
   std::optional<std::filesystem::path> run_file = {};
 };
 
+/// How far a folder's work has come.
+struct WorkProgress {
+  std::int64_t known = 0;      ///< evaluations that the journal holds
+  std::int64_t remaining = 0;  ///< that may still come, at most
+};
+
 /// How a folder's work is carried out.
 struct WorkOptions {
   std::filesystem::path folder;  ///< made when missing; holds journal.jsonl
@@ -47,6 +54,8 @@ struct WorkOptions {
   /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
   /// what runs only if their evaluation was given a token, too.
   io::Cancellation cancellation;
+  /// Called a few times a second while evaluations run in other threads or processes. May be empty.
+  std::function<void(const WorkProgress&)> progress;
   /// Results of unfinished work are written this often, so that a kill leaves something to look at.
   std::chrono::seconds results_interval = std::chrono::seconds(60);
 };

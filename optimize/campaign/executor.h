@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -56,5 +57,9 @@ struct ChildOptions {
 
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.
 std::unique_ptr<Executor> make_child_executor(ChildOptions options);
+
+/// Makes an executor of `workers` child processes of `program`, which is perfora, that share `threads` threads.
+std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
+                                                            int threads);
 
 }  // namespace perfora::optimize

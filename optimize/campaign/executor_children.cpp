@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "io/progress.h"
 #include "optimize/campaign/executor.h"
 
 namespace perfora::optimize {
@@ -279,6 +280,19 @@ class ChildExecutor final : public Executor {
 
 std::unique_ptr<Executor> make_child_executor(ChildOptions options) {
   return std::make_unique<ChildExecutor>(std::move(options));
+}
+
+std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
+                                                            int threads) {
+  const int each = std::max(1, threads / workers);
+  return [program, workers, each] {
+    ChildOptions children;
+    children.command = {program.string(), "worker", "--quiet", "--threads", std::to_string(each)};
+    children.workers = workers;
+    io::log_info(
+        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", each, each == 1 ? "" : "s"));
+    return make_child_executor(std::move(children));
+  };
 }
 
 }  // namespace perfora::optimize

@@ -10,6 +10,7 @@
 #include "geometry/packing_file.h"
 #include "geometry/wall.h"
 #include "io/hdf5.h"
+#include "io/text.h"
 #include "optimize/evaluate/packing_cache.h"
 #include "results/file_parts.h"
 #include "results/formats.h"
@@ -40,7 +41,10 @@ std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, 
   if (!options.packing_file.empty())
     return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, key));
   return cached_packing(key, [&] {
-    return geometry::make_packing(design.packing, width, height, seed, options.threads, options.progress);
+    return geometry::make_packing(design.packing, width, height, seed, options.threads,
+                                  [&](double fraction, const std::string& text) {
+                                    if (options.progress) options.progress({fraction, text});
+                                  });
   });
 }
 
@@ -142,6 +146,27 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
   evaluation.summary.status = evaluation.status;
   evaluation.summary.reason = reason;
   return evaluation;
+}
+
+std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading) {
+  constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;
+  const results::Summary& s = evaluation.summary;
+  std::vector<std::string> warnings;
+  if (s.max_overlap_in_run > small_overlap)
+    warnings.push_back(
+        fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
+                    "discs can bear; take the stress of the last strains as a lower bound",
+                    io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
+  if (s.kinetic_ratio_at_peak > small_kinetic_share)
+    warnings.push_back(fmt::format(
+        "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
+        io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
+  if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
+    warnings.push_back(
+        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} requested: the block is stiffer "
+                    "or weaker than estimated; raise loading.transits",
+                    s.transits_before_peak, loading.transits));
+  return warnings;
 }
 
 void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate) {

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/packing.h"
 #include "geometry/perforation.h"
@@ -15,6 +15,7 @@
 #include "optimize/evaluate/design.h"
 #include "results/evaluation.h"
 #include "results/json.h"
+#include "results/progress.h"
 #include "results/provenance.h"
 #include "solver/run.h"
 
@@ -29,7 +30,7 @@ struct EvaluateOptions {
   double wall_time_limit = 0.0;   ///< s, 0: none
   io::Cancellation cancellation;  ///< requested: the compression writes a checkpoint and stops
   std::string command_line;
-  std::function<void(double, const std::string&)> progress;
+  results::ProgressCallback progress;  ///< of the packing, then of the compression; may be empty
 };
 
 /// Layout, periodic packing, clipped packing of one design and replicate, with what was measured on them.
@@ -62,6 +63,10 @@ double mean_diameter_of(const DesignFile& design, const geometry::Packing& perio
 /// Where a result of `design` comes from: this program, the command, the seeds, the resolved configuration.
 results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
                                   const std::string& command_line);
+
+/// What a run itself says against its numbers (docs/user/theory.md, "Ledger"), a sentence each; `loading` is the
+/// design's.
+std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading);
 
 /// Throws io::InputError unless `packing_file` holds the periodic packing that `design` and `replicate` ask for; what
 /// --packing is checked with before work starts.

@@ -184,7 +184,7 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
   EvaluateOptions packing;
   packing.threads = options.threads;
   for (int r = 0; r < options.replicates; ++r) {
-    if (options.progress) options.progress(0.0, fmt::format("packing sample {} of {}", r + 1, options.replicates));
+    if (options.progress) options.progress({0.0, fmt::format("packing sample {} of {}", r + 1, options.replicates)});
     packed[static_cast<std::size_t>(r)] = pack_design(sample, packing, r);
     const geometry::Packing& periodic = packed[static_cast<std::size_t>(r)].periodic;
     if (!periodic.quality.reached) {
@@ -208,8 +208,8 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
     double sum = 0.0;
     for (const double part : done) sum += part;
     if (options.progress)
-      options.progress(sum / static_cast<double>(done.size()),
-                       fmt::format("{}", solver::material_test_name(tests.runs[k].result.kind)));
+      options.progress({sum / static_cast<double>(done.size()),
+                        fmt::format("{}", solver::material_test_name(tests.runs[k].result.kind))});
   };
   side_by_side(tests.runs.size(), options.threads, [&](std::size_t k) {
     MaterialTestRun& run = tests.runs[k];

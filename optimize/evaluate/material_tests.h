@@ -17,11 +17,10 @@
 namespace perfora::optimize {
 
 struct MaterialTestsOptions {
-  int threads = 1;                ///< tests run side by side, each on one thread
-  int replicates = 1;             ///< samples with packings and strength fields of their own
-  io::Cancellation cancellation;  ///< requested: every test stops
-  /// Share of all tests done, and a line. May be empty.
-  std::function<void(double, const std::string&)> progress;
+  int threads = 1;                     ///< tests run side by side, each on one thread
+  int replicates = 1;                  ///< samples with packings and strength fields of their own
+  io::Cancellation cancellation;       ///< requested: every test stops
+  results::ProgressCallback progress;  ///< of all tests together; may be empty
   /// Called when a test is finished, from one thread at a time. May be empty.
   std::function<void(const solver::MaterialTestResult&, int replicate)> finished;
 };

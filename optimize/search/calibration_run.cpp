@@ -51,6 +51,12 @@ class CalibrationRun final : public Campaign {
     work.command_line = options.command_line;
     work.make_executor = options.make_executor;
     work.cancellation = options.cancellation;
+    work.progress = [this](const WorkProgress& so_far) {
+      const int most = most_points(calibration_) * tests_a_point();
+      if (options_.progress)
+        options_.progress(
+            {static_cast<double>(so_far.known) / most, fmt::format("{} of at most {} tests", so_far.known, most)});
+    };
     open(std::move(work));
   }
 
@@ -141,10 +147,6 @@ class CalibrationRun final : public Campaign {
 
   std::string on_answer(const Asked& asked, const Evaluation&) override {
     const std::string point = point_of(asked.key);
-    const int most = most_points(calibration_) * tests_a_point();
-    if (options_.progress)
-      options_.progress(static_cast<double>(answers().size()) / most,
-                        fmt::format("{} of at most {} tests", answers().size(), most));
     const std::optional<SampleStrengths> strengths = strengths_of(point, answers());
     if (!strengths) return {};
     const double tension = results::statistic_of("tension", strengths->tension).mean;

@@ -18,7 +18,7 @@ struct CalibrationOptions {
   int threads = 1;  ///< of the packings and of the confirmation in this process
   bool resume = false, force = false;
   std::string command_line;
-  std::function<void(double, const std::string&)> progress;  ///< may be empty
+  results::ProgressCallback progress;  ///< may be empty
   /// Makes what carries the tests of the search; not called when the journal answers all of them.
   std::function<std::unique_ptr<Executor>()> make_executor;
   io::Cancellation cancellation;  ///< requested: tests stop, finished ones are kept

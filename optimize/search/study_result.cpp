@@ -6,6 +6,7 @@
 
 #include "io/csv.h"
 #include "io/files.h"
+#include "io/hdf5.h"
 #include "io/text.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_record.h"
@@ -206,6 +207,19 @@ void write_results(StudyRun& run) {
   io::write_file(folder / "evaluations.csv", evaluations_csv(run));
   io::write_file(folder / "study.json", to_json(study_record(run)).dump() + "\n");
   io::write_file(folder / "result.json", to_json(run).dump(2) + "\n");
+}
+
+Evaluation evaluate_best(const StudyRun& run, EvaluateOptions options) {
+  const DesignFile design = design_of(run.study(), *run.plan().best);
+  options.run_file = run.options().folder / "best.h5";
+  options.resume = true;
+  const bool there = std::filesystem::exists(options.run_file);
+  // An earlier best, before maxeval was raised.
+  if (there && !same_configuration(io::Hdf5Reader(options.run_file).text("/config"), design)) {
+    std::filesystem::remove(options.run_file);
+    std::filesystem::remove_all(run.options().folder / "best.part");
+  }
+  return evaluate_design(design, options, 0);
 }
 
 }  // namespace perfora::optimize

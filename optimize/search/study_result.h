@@ -24,4 +24,9 @@ std::string evaluations_csv(StudyRun& run);
 /// study's folder, each whole.
 void write_results(StudyRun& run);
 
+/// Evaluates the best design once more (replicate 0), with its frames, into DIR/best.h5; goes on where an earlier call
+/// for the same design was stopped. The search itself keeps coarse curves only. Threads, cancellation, command line and
+/// progress are those of `options`. Only for a run with a best design.
+Evaluation evaluate_best(const StudyRun& run, EvaluateOptions options);
+
 }  // namespace perfora::optimize

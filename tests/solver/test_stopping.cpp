@@ -54,7 +54,7 @@ TEST_F(Stopping, TheRunThatIsAskedWritesACheckpointAndTheNextOneEnds) {
   RunRequest stopped = request();
   stopped.run_file = file;
   stopped.cancellation = source.token();
-  stopped.progress = [&](double, const std::string&) {  // at the first row: another thread asks
+  stopped.progress = [&](const results::Progress&) {  // at the first row: another thread asks
     if (!source.token().requested()) std::thread([&] { source.request(); }).join();
   };
   const Response half = run_compression(stopped);

@@ -1,13 +1,13 @@
 // What is here: every file of designs/ read and checked as what it is. What is not: what the designs give.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "io/toml.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"
+#include "results/describe.h"
 #include "tests/optimize/evaluate/design_support.h"
 
 namespace perfora::optimize {
@@ -15,23 +15,18 @@ namespace {
 
 const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) / "designs";
 
-bool has_section(const std::filesystem::path& path, const std::string& section) {
-  const auto entries = io::read_toml(path);
-  return std::any_of(entries.begin(), entries.end(),
-                     [&](const io::Entry& entry) { return entry.key.starts_with(section + "."); });
-}
-
 TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
   int found = 0;
   for (const auto& entry : std::filesystem::directory_iterator(designs)) {
     if (entry.path().extension() != ".toml") continue;
     ++found;
     const auto check = [&] {
-      if (has_section(entry.path(), "study"))
+      const std::string kind = results::kind_of_toml(entry.path());
+      if (kind == "study")
         static_cast<void>(check_study(entry.path()));
-      else if (has_section(entry.path(), "sweep"))
+      else if (kind == "sweep")
         for (const SweepCase& one : read_sweep(entry.path()).cases) EXPECT_EQ(one.problem, "") << entry.path();
-      else if (has_section(entry.path(), "calibrate"))
+      else if (kind == "calibration")
         static_cast<void>(read_calibration(entry.path(), {}));
       else
         static_cast<void>(DesignFile(entry.path()).validate());

@@ -1,0 +1,43 @@
+// What is here: the rules for existing outputs of a run. What is not: what stands beside a run file (report/).
+#include "optimize/evaluate/run_output.h"
+
+#include <array>
+
+#include "io/error.h"
+#include "io/files.h"
+
+namespace perfora::optimize {
+
+namespace fs = std::filesystem;
+
+void check_run_output(const fs::path& run_file, bool force, bool resume) {
+  if (run_file.extension() != ".h5")
+    throw io::InputError({"-o", 0, run_file.string()}, "the run file does not end in .h5", "a name such as result.h5");
+  io::check_output(run_file, force, resume);
+  const std::array<fs::path, 3> beside = {fs::path(run_file).replace_extension(".csv"),
+                                          fs::path(run_file).replace_extension(".xdmf"),
+                                          fs::path(run_file).replace_extension(".xdmf.h5")};
+  if (!resume)
+    for (const fs::path& path : beside) io::check_output(path, force, false);
+  const fs::path part = fs::path(run_file).replace_extension(".part");
+  if (resume) return;
+  if (fs::exists(part) && !force)
+    throw io::InputError({part.string(), 0, ""}, "holds a run that did not end", "",
+                         "--resume continues it, --force throws it away, or name another output with -o");
+  // Both go, or --resume would find the old run's end beside the new one's beginning.
+  fs::remove_all(part);
+  fs::remove(run_file);
+  for (const fs::path& path : beside) fs::remove(path);
+}
+
+std::vector<std::string> prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
+                                            bool force) {
+  std::vector<std::string> warnings = design.validate();
+  if (!options.packing_file.empty()) require_packing_file(design, options.packing_file, replicate);
+  if (options.run_file.empty()) return warnings;
+  check_run_output(options.run_file, force, options.resume);
+  if (options.resume) static_cast<void>(finished_evaluation(design, options.run_file, replicate));
+  return warnings;
+}
+
+}  // namespace perfora::optimize
