@@ -3,7 +3,8 @@
 # What is not: building and running (see ./run).
 #
 #   ./setup.sh             compiler and libraries
-#   ./setup.sh --viewers   also the programs that some tests open result files with (about 250 MB; used by .ci/run)
+#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, doxygen (about 300 MB; used by
+#                          .ci/run)
 #   ./setup.sh --list      prints the package names, installs nothing
 set -euo pipefail
 
@@ -14,7 +15,7 @@ packages=(
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
   libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks
 )
-viewer_packages=(python3-paraview python3-h5py)
+viewer_packages=(python3-paraview python3-h5py doxygen)
 
 with_viewers=no
 list_only=no

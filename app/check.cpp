@@ -12,7 +12,6 @@
 #include "app/workers.h"
 #include "io/schema.h"
 #include "io/text.h"
-#include "io/toml.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration_search.h"

@@ -1,5 +1,5 @@
 # What is here: the libraries Perfora stands on; each is a Debian 12 package (setup.sh names them).
-# What is not: compiler flags and room targets (PerforaTargets.cmake). PerforaConfig.cmake.in repeats this list for users of the installed libraries.
+# What is not: compiler flags and room targets (PerforaTargets.cmake). PerforaConfig.cmake.in repeats those that a user of the installed library links.
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(CGAL REQUIRED)

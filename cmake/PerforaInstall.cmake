@@ -1,21 +1,19 @@
-# What is here: `cmake --install`: the program, the rooms as Perfora::io ... Perfora::report, headers under include/perfora, the example designs,
-# and the package files that find_package(Perfora) reads. What is not: the rooms themselves (PerforaTargets.cmake).
-include(GNUInstallDirs)
+# What is here: `cmake --install`: the program, the library Perfora::perfora with its public headers (include/perfora),
+# the rooms behind it as libraries to link, the example designs, and the package files that find_package(Perfora) reads.
+# What is not: the rooms themselves (PerforaTargets.cmake); their headers are not installed.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Perfora)
-get_property(rooms GLOBAL PROPERTY PERFORA_ROOMS)
-if(rooms)
-  install(TARGETS ${rooms} EXPORT PerforaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT PerforaTargets NAMESPACE Perfora:: DESTINATION ${package_folder})
-endif()
+foreach(room IN ITEMS io geometry results solver evaluate campaign search perfora)
+  list(APPEND libraries perfora_${room})
+endforeach()
+install(TARGETS ${libraries} EXPORT PerforaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT PerforaTargets NAMESPACE Perfora:: DESTINATION ${package_folder})
 if(TARGET perfora)
   install(TARGETS perfora RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-foreach(room IN ITEMS io geometry results solver optimize report)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perfora FILES_MATCHING PATTERN "*.h")
-endforeach()
+install(FILES ${PERFORA_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perfora)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/designs DESTINATION ${CMAKE_INSTALL_DATADIR}/perfora)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -15,15 +15,13 @@ function(perfora_add_room name)
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Perfora::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/perfora>)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)  # rooms' headers stay here
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
   foreach(library IN LISTS ARG_PRIVATE)
     target_link_libraries(${target} PRIVATE ${library})
   endforeach()
   perfora_options(${target})
-  set_property(GLOBAL APPEND PROPERTY PERFORA_ROOMS ${target})
 endfunction()
 
 function(perfora_add_test name)

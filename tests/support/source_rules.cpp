@@ -40,6 +40,12 @@ const Room* room_of(const std::string& path) {
   return found == rooms.end() ? nullptr : &*found;
 }
 
+/// Whether a file is a header that users of the library include.
+bool is_public(const std::string& path) {
+  return lies_in(path, "perfora") && path.ends_with(".h") &&
+         std::find(private_headers.begin(), private_headers.end(), path) == private_headers.end();
+}
+
 void check_include(const std::string& path, const std::string& include, std::vector<std::string>& out) {
   const Room* from = room_of(path);
   const Room* to = room_of(include);
@@ -47,6 +53,8 @@ void check_include(const std::string& path, const std::string& include, std::vec
     out.push_back(path + ": include \"" + include + "\" by its room, not by \"..\"");
   if (to && to != from && std::find(from->knows.begin(), from->knows.end(), to->name) == from->knows.end())
     out.push_back(path + ": includes " + include + ", but " + from->name + " knows nothing of " + to->name);
+  if (is_public(path) && !is_public(include) && include.find('.') != std::string::npos)
+    out.push_back(path + ": includes " + include + ", which is neither of the standard library nor installed with it");
   for (const auto& library : confined_libraries())
     if (std::regex_match(include, library.include) && !std::regex_match(path, library.allowed_in))
       out.push_back(path + ": includes <" + include + ">: " + library.sentence);

@@ -58,6 +58,29 @@ TEST(Documentation, FormatsListTheTableOfMeasures) {
       << "the measures have changed: write this between the two marks of docs/user/formats.md";
 }
 
+/// The blocks of code in this language.
+std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {
+  const std::string begin = "\n```" + language + "\n", end = "\n```\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    const std::size_t to = page.find(end, at);
+    blocks.push_back(page.substr(at, to + 1 - at));
+    at = to;
+  }
+  return blocks;
+}
+
+// The consumer's programs are built and run by the test installed_library_serves_a_consumer.
+TEST(Documentation, ProgramsOfTheLibrarysPageAreTheConsumers) {
+  const std::string page = read_text(source / "docs/user/library.md");
+  const fs::path consumer = source / "tests/support/consumer";
+  EXPECT_THAT(blocks_of(page, "cpp"),
+              ::testing::ElementsAre(read_text(consumer / "crush.cpp"), read_text(consumer / "sweep.cpp")));
+  const std::string project = read_text(consumer / "CMakeLists.txt");
+  EXPECT_THAT(blocks_of(page, "cmake"), ::testing::ElementsAre(project.substr(project.find('\n') + 1)));
+}
+
 TEST(Documentation, KeysThatTheTheoryNamesExist) {
   const optimize::DesignFile design;
   const std::regex name("`([a-z]+\\.[a-z_]+)( = [^`]*)?`");

@@ -20,8 +20,8 @@ using ::testing::IsEmpty;
 std::map<std::string, std::string> project_sources() {
   const fs::path source = PERFORA_SOURCE_DIR;
   std::map<std::string, std::string> files;
-  const std::vector<std::string> folders = {"io",       "geometry", "results", "solver",
-                                            "optimize", "report",   "app",     "tests"};
+  const std::vector<std::string> folders = {"io",      "geometry", "results", "solver", "optimize",
+                                            "perfora", "report",   "app",     "tests"};
   for (const auto& folder : folders) {
     if (!fs::exists(source / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
@@ -84,6 +84,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"optimize/evaluate/x.h", "\"optimize/campaign/sweep.h\"", "evaluate knows nothing of optimize/campaign"},
         Case{"optimize/campaign/x.h", "\"optimize/search/study.h\"", "campaign knows nothing of optimize/search"},
         Case{"optimize/search/x.h", "\"optimize/campaign/sweep.h\"", ""},
+        Case{"app/x.cpp", "\"perfora/design.h\"", "app knows nothing of perfora"},
+        Case{"optimize/search/x.h", "\"perfora/design.h\"", "knows nothing of perfora"},
+        Case{"perfora/x.cpp", "\"optimize/search/study.h\"", ""},
+        Case{"perfora/x.cpp", "\"report/plot.h\"", "perfora knows nothing of report"},
+        Case{"perfora/x.h", "\"results/history.h\"", "neither of the standard library"},
+        Case{"perfora/x.h", "\"perfora/inside.h\"", "neither of the standard library"},
+        Case{"perfora/x.h", "<nlohmann/json.hpp>", "neither of the standard library"},
+        Case{"perfora/x.h", "<filesystem>", ""}, Case{"perfora/x.h", "\"perfora/design.h\"", ""},
+        Case{"perfora/inside.h", "\"results/history.h\"", ""}, Case{"tests/perfora/x.cpp", "\"perfora/pack.h\"", ""},
         Case{"results/x.h", "\"solver/run.h\"", "results knows nothing of solver"},
         Case{"report/x.cpp", "\"app/common.h\"", "report knows nothing of app"},
         Case{"solver/x.cpp", "\"../io/error.h\"", "not by \"..\""}, Case{"app/x.cpp", "\"report/plot.h\"", ""},

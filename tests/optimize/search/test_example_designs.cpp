@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "io/toml.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"

@@ -1,0 +1,50 @@
+// What is here: one design evaluated: packed, bonded, compressed, measured. What is not: many evaluations in a folder
+// (campaign.h), reading what was written (results.h).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "perfora/design.h"
+#include "perfora/results.h"
+
+namespace perfora {
+
+/// How far work has come.
+struct Progress {
+  double fraction = 0.0;  ///< done, 0 to 1; a smaller one than before belongs to the next part of the work
+  std::string text;       ///< for people
+  double strain = std::numeric_limits<double>::quiet_NaN();  ///< of a compression; NaN of other work
+  double stress = std::numeric_limits<double>::quiet_NaN();  ///< of a compression, Pa; NaN of other work
+  std::int64_t finished = 0;                                 ///< evaluations of a campaign
+  std::int64_t remaining = 0;                                ///< evaluations of a campaign that may still come, at most
+  double seconds = 0.0;                                      ///< wall time so far
+  double seconds_left = std::numeric_limits<double>::quiet_NaN();  ///< expected; NaN while it is not known
+};
+
+/// Is told of progress now and then and says whether to go on: false asks the work to stop, which it does within a few
+/// steps, keeping what it has. It is called by one thread at a time. An exception stops the work as well and then comes
+/// out of the function that was called.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// How a design is evaluated.
+struct EvaluateOptions {
+  int threads = 0;                     ///< 0: one a core. The result does not depend on it
+  int replicate = 0;                   ///< 0, 1, ...: another packing and strength field of the same design
+  std::filesystem::path run_file;      ///< R.h5 to write; empty: none. A run that is stopped needs it to go on
+  std::filesystem::path packing_file;  ///< packing file of this design to start from; empty: the packing is made
+  bool resume = false;                 ///< go on from what run_file has, or read it when it is finished
+  bool force = false;                  ///< replace a run file that exists
+  double wall_time = 0.0;              ///< s, after which it stops with a checkpoint; 0: none
+  ProgressCallback progress;           ///< may be empty
+};
+
+/// Packs a design, compresses it and measures the curve, what `perfora evaluate` does. A stop (by the callback or the
+/// wall time) is Status::stopped; numerical trouble is Status::failed. Throws Error for a design that cannot be
+/// evaluated and a run file that exists or is of another design.
+Evaluation evaluate(const Design& design, const EvaluateOptions& options = {});
+
+}  // namespace perfora

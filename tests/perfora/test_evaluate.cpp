@@ -1,0 +1,122 @@
+// What is here: evaluations of the public face held against optimize::evaluate_design() bit by bit; progress, stops,
+// run files. What is not: whether the numbers are right (tests/solver, tests/verification).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimize/evaluate/evaluation.h"
+#include "perfora/evaluate.h"
+#include "results/measure_table.h"
+#include "tests/perfora/face_support.h"
+
+namespace perfora {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(PublicEvaluation, IsThatOfTheRoomsToTheLastBit) {
+  const Evaluation found = evaluate(small_block());
+  const auto file = optimize::DesignFile::from_toml(optimize::small_design, "design");
+  const results::Evaluation wanted = optimize::evaluate_design(file, {}, 0);
+  EXPECT_EQ(found.status, Status::completed);
+  EXPECT_EQ(found.reason, wanted.reason);
+  EXPECT_EQ(std::vector<double>(found.strain().begin(), found.strain().end()), wanted.curve.strain_yy);
+  EXPECT_EQ(std::vector<double>(found.stress().begin(), found.stress().end()), wanted.curve.stress_yy);
+  EXPECT_EQ(found.curve.columns.size(), wanted.curve.filled_columns());
+  for (const results::Measure& measure : results::measures()) {
+    const double value = results::value_of(measure, wanted), mine = found.measure(measure.key);
+    EXPECT_TRUE(mine == value || (std::isnan(mine) && std::isnan(value))) << measure.key;
+  }
+  const auto record = nlohmann::json::parse(found.to_json());
+  EXPECT_EQ(record.at("schema"), "perfora.evaluate/1");
+  EXPECT_EQ(record.at("plateau_stress"), wanted.summary.plateau_stress);
+  for (const Measure& measure : found.measures)
+    if (measure.key == "plateau_stress") {
+      EXPECT_EQ(measure.unit, "Pa");
+      EXPECT_EQ(measure.dimension, "stress");
+      EXPECT_EQ(measure.label, "plateau stress");
+    }
+}
+
+TEST(PublicEvaluation, ProgressTellsStrainAndStress) {
+  std::vector<Progress> heard;
+  EvaluateOptions options;
+  options.progress = [&](const Progress& progress) {
+    heard.push_back(progress);
+    return true;
+  };
+  const Evaluation found = evaluate(small_block(), options);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard.back().fraction, 1.0);
+  EXPECT_EQ(heard.back().stress, found.stress().back());
+  EXPECT_NEAR(heard.back().strain, 0.01, 1e-6);  // small_design: until = 0.01
+  EXPECT_EQ(heard.back().seconds_left, 0.0);
+}
+
+TEST(PublicEvaluation, CallbackStopsARunThatThenGoesOn) {
+  const DesignFolder folder;
+  const Evaluation straight = evaluate(small_block());
+  EvaluateOptions options;
+  options.run_file = folder / "r.h5";
+  options.progress = [](const Progress& progress) { return !(progress.strain >= 0.004); };
+  const Evaluation stopped = evaluate(small_block(), options);
+  EXPECT_EQ(stopped.status, Status::stopped);
+  EXPECT_LT(stopped.measure("final_strain"), 0.006);
+  options.progress = {};
+  EXPECT_NE(error_of([&] { static_cast<void>(evaluate(small_block(), options)); }), "");  // it would start over
+  options.resume = true;
+  const Evaluation resumed = evaluate(small_block(), options);
+  EXPECT_EQ(resumed.status, Status::completed);
+  EXPECT_EQ(resumed.curve.columns.back().values, straight.curve.columns.back().values);
+  EXPECT_EQ(std::vector<double>(resumed.stress().begin(), resumed.stress().end()),
+            std::vector<double>(straight.stress().begin(), straight.stress().end()));
+}
+
+TEST(PublicEvaluation, ExceptionOfTheCallbackStopsTheRunAndComesOut) {
+  int calls = 0;
+  EvaluateOptions options;
+  options.progress = [&](const Progress& progress) -> bool {
+    if (std::isnan(progress.strain)) return true;  // packing
+    ++calls;
+    throw std::domain_error("enough");
+  };
+  EXPECT_THROW(static_cast<void>(evaluate(small_block(), options)), std::domain_error);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(PublicEvaluation, RunFileGivesTheSameBack) {
+  const DesignFolder folder;
+  EvaluateOptions options;
+  options.run_file = folder / "r.h5";
+  const Evaluation made = evaluate(small_block(), options);
+  const auto run = read_run(options.run_file);
+  ASSERT_EQ(run.evaluation.curve.columns.size(), made.curve.columns.size());
+  for (std::size_t k = 0; k < made.curve.columns.size(); ++k) {
+    EXPECT_EQ(run.evaluation.curve.columns[k].name, made.curve.columns[k].name);
+    EXPECT_EQ(run.evaluation.curve.columns[k].values, made.curve.columns[k].values);
+  }
+  for (const Measure& measure : made.measures) {
+    const double value = run.evaluation.measure(measure.key);
+    EXPECT_TRUE(value == measure.value || (std::isnan(value) && !std::isfinite(measure.value))) << measure.key;
+  }
+  EXPECT_EQ(run.evaluation.to_json(), made.to_json());
+  EXPECT_EQ(Design::from_toml(run.design).to_toml(), small_block().to_toml());
+  EXPECT_FALSE(run.frame_strains.empty());
+  EXPECT_EQ(kind_of(options.run_file), "run");
+  options.resume = true;
+  EXPECT_EQ(evaluate(small_block(), options).to_json(), made.to_json());  // read, not run
+}
+
+TEST(PublicEvaluation, WrongInputIsAnError) {
+  Design overlapping = small_block();
+  overlapping.set("layout.diameter", "14 mm");
+  EXPECT_NE(error_of([&] { static_cast<void>(evaluate(overlapping)); }), "");
+  EvaluateOptions both;
+  both.resume = both.force = true;
+  EXPECT_THAT(error_of([&] { static_cast<void>(evaluate(small_block(), both)); }), HasSubstr("exclude each other"));
+  EXPECT_NE(error_of([&] { static_cast<void>(read_run("/nowhere/r.h5")); }), "");
+}
+
+}  // namespace
+}  // namespace perfora
