@@ -98,7 +98,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   refuse_with_elastic(flags);
   remove_stop_handlers();
   const optimize::DesignFile design = read_design(flags);
-  std::vector<std::string> warnings = design.validate();
+  std::vector<std::string> warnings = design.validate(optimize::Purpose::block);
   warn_about_edges(design.design().solver.boundary, warnings);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-elastic.h5"));
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);

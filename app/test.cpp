@@ -48,7 +48,7 @@ int test(const TestFlags& flags) {
   const bool whole = !tests.runs.empty();
   if (whole) {
     optimize::write_material_tests(output, design, tests, command_line());
-    report::plot_material_tests(output, picture);
+    report::plot_material_tests(output, picture);  // NOLINT(readability-suspicious-call-argument): test_file, out
   }
   print_record(record, flags.common.json);
   if (tests.status == results::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);

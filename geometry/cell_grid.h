@@ -60,7 +60,8 @@ class CellGrid {
     return (static_cast<double>(cell % static_cast<std::size_t>(columns_)) + 0.5) * column_width_;
   }
   double middle_y(std::size_t cell) const {
-    return (static_cast<double>(cell / static_cast<std::size_t>(columns_)) + 0.5) * row_height_;
+    const std::size_t row = cell / static_cast<std::size_t>(columns_);
+    return (static_cast<double>(row) + 0.5) * row_height_;
   }
 
  private:

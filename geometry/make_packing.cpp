@@ -3,10 +3,13 @@
 // (clip.cpp).
 #include "geometry/make_packing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "geometry/clip.h"
@@ -296,6 +299,34 @@ Packing make_packing(const PackingOptions& options, double width, double height,
   return packing;
 }
 
+namespace {
+
+/// Refuses a disc that lies within another one. Discs by rising x, each against those that begin within the largest
+/// diameter: called only where there is such a pair.
+void refuse_disc_within_another(const Packing& packing, const io::CsvTable& table, const std::filesystem::path& csv) {
+  std::vector<std::size_t> order(packing.x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return packing.x[a] < packing.x[b]; });
+  const double reach = 2.0 * *std::max_element(packing.radius.begin(), packing.radius.end());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t next = 1; next < order.size(); ++next) {
+      const std::size_t i = order[k], j = order[(k + next) % order.size()];
+      double dx = packing.x[j] - packing.x[i], dy = packing.y[j] - packing.y[i];
+      if (dx < 0.0) dx += packing.width;
+      if (dx > reach) break;
+      dx -= packing.width * std::round(dx / packing.width);
+      dy -= packing.height * std::round(dy / packing.height);
+      if (std::hypot(dx, dy) > std::abs(packing.radius[i] - packing.radius[j])) continue;
+      throw io::InputError({csv.string(), table.lines[std::max(i, j)], "packing.file"},
+                           fmt::format("this disc and the one of line {} lie within each other, as they are or across "
+                                       "the boundary",
+                                       table.lines[std::min(i, j)]),
+                           "discs of a packing touch at most", "give each disc once, and one frame of a trajectory");
+    }
+}
+
+}  // namespace
+
 Packing import_packing(const std::filesystem::path& csv, double width, double height) {
   const io::CsvTable table = io::read_csv(csv, {"x", "y", "radius"}, static_cast<std::size_t>(maximum_discs));
   Packing packing;
@@ -304,10 +335,12 @@ Packing import_packing(const std::filesystem::path& csv, double width, double he
   const double side = std::min(width, height);
   for (std::size_t k = 0; k < table.rows(); ++k) {
     const double radius = table.columns[2][k];
-    if (!(radius > 0.0 && 4.0 * radius < side))
+    if (!(radius > 0.0 && 2.0 * radius * largest_discs_along_a_side <= side))
       throw io::InputError(
           {csv.string(), table.lines[k], "packing.file"}, "a disc of this radius does not belong in the cell",
-          "radii above 0 and below a quarter of the cell's shorter side", "give x, y and radius in metres");
+          fmt::format("radii above 0, and a cell of at least {:g} of the largest discs along each side",
+                      largest_discs_along_a_side),
+          "give x, y and radius in metres");
     const auto wrap = [](double value, double period) {
       value -= period * std::floor(value / period);
       return value >= 0.0 && value < period ? value : 0.0;
@@ -323,6 +356,13 @@ Packing import_packing(const std::filesystem::path& csv, double width, double he
   options.file = csv;
   packing.key = packing_key(options, width, height, 0);
   packing.quality = measure_packing(packing);
+  if (packing.quality.solid_fraction >= 1.0)
+    throw io::InputError(
+        {csv.string(), 0, "packing.file"},
+        fmt::format("the discs have {:.4g} times the area of the cell of {}", packing.quality.solid_fraction,
+                    io::quantities({width, height}, io::Dimension::length, " x ")),
+        "less than the cell", "give one frame of a trajectory, or the cell that the packing was made in");
+  if (packing.quality.max_overlap_ratio >= 1.0) refuse_disc_within_another(packing, table, csv);
   return packing;
 }
 

@@ -40,7 +40,9 @@ std::int64_t expected_discs(const PackingOptions& options, double width, double 
 Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
                      const std::function<void(double, const std::string&)>& progress = {});
 
-/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with file and line.
+/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with
+/// file and line: for a radius that does not belong in the cell, for a disc that lies within another (also across the
+/// boundary), for more area of discs than the cell has.
 Packing import_packing(const std::filesystem::path& csv, double width, double height);
 
 }  // namespace perfora::geometry

@@ -106,7 +106,7 @@ bool holds_text(const Value& value) {
 
 /// The value of a --set: TOML syntax where it is, otherwise the bare text; keys that hold text take any text.
 Value override_value(const Key* key, std::string_view text, const Origin& origin) {
-  const Value bare{std::string(text)};
+  Value bare{std::string(text)};
   if (!parse_toml_value(toml_literal(bare, Digits::shortest)))
     throw InputError(origin, "the value is not valid UTF-8 text", "", "write it in UTF-8");
   const std::optional<Value> parsed = parse_toml_value(text);
@@ -168,40 +168,39 @@ void Schema::note_old_name(const Origin& origin) {
   if (std::none_of(used_old_names_.begin(), used_old_names_.end(), same)) used_old_names_.push_back(origin);
 }
 
-const Key* Schema::find(std::string_view given_name) const {
-  const std::string full_name = name_today(given_name);
+const Key* Schema::find(std::string_view full_name) const {
+  const std::string today = name_today(full_name);
   for (const Key& key : keys_) {
     const std::size_t dot = key.section.size();
-    if (full_name.size() == dot + 1 + key.name.size() && full_name[dot] == '.' && full_name.starts_with(key.section) &&
-        full_name.ends_with(key.name))
+    if (today.size() == dot + 1 + key.name.size() && today[dot] == '.' && today.starts_with(key.section) &&
+        today.ends_with(key.name))
       return &key;
   }
   return nullptr;
 }
 
-const Key& Schema::at(std::string_view given_name, Origin origin) const {
-  if (const Key* key = find(given_name)) return *key;
-  const std::string full_name = name_today(given_name);
-  origin.key = given_name;
+const Key& Schema::at(std::string_view full_name, Origin origin) const {
+  if (const Key* key = find(full_name)) return *key;
+  origin.key = full_name;
   const std::vector<std::string> sections = section_names();
-  const SplitName given = split(full_name, sections);
+  const SplitName given = split(name_today(full_name), sections);
   if (std::find(sections.begin(), sections.end(), given.section) == sections.end())
     refuse_section(given, keys_, sections, origin);
   refuse_name(given, keys_, origin);
 }
 
-void Schema::set(std::string_view given_name, const Value& value, Origin origin) {
-  const std::string full_name = name_today(given_name);
-  origin.key = given_name;
+void Schema::set(std::string_view full_name, const Value& value, Origin origin) {
+  const std::string today = name_today(full_name);
+  origin.key = full_name;
   if (origin.line == 0) origin.line = value.line;
-  at(given_name, origin).set(value, origin);
-  if (full_name != given_name) note_old_name(origin);
-  const auto same = [full_name](const auto& entry) { return entry.first == full_name; };
+  at(full_name, origin).set(value, origin);
+  if (today != full_name) note_old_name(origin);
+  const auto same = [&today](const auto& entry) { return entry.first == today; };
   const auto known = std::find_if(origins_.begin(), origins_.end(), same);
   if (known != origins_.end())
     known->second = std::move(origin);
   else
-    origins_.emplace_back(full_name, std::move(origin));
+    origins_.emplace_back(today, std::move(origin));
 }
 
 void Schema::set_number(std::string_view full_name, double value, Origin origin) {

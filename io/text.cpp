@@ -27,7 +27,6 @@ struct Prefixes {
 Prefixes prefixes_of(Dimension dimension) {
   switch (dimension) {
     case Dimension::length:
-      return {-9, 0};
     case Dimension::time:
       return {-9, 0};
     case Dimension::stress:

@@ -75,7 +75,7 @@ double Packing::measure(const std::string& key) const {
 Packing pack(const Design& design, const PackOptions& options) {
   return at_boundary([&] {
     const optimize::DesignFile file = Inside::file(design).clone();
-    static_cast<void>(file.validate());
+    static_cast<void>(file.validate(optimize::Purpose::block));
     if (!options.file.empty()) io::check_output(options.file, options.force, false);
     optimize::EvaluateOptions making;
     making.threads = thread_count(options.threads);

@@ -36,6 +36,7 @@ const std::vector<History::Column>& History::columns() {
       {"largest_overlap", "", &History::largest_overlap, true, true},
       {"largest_asymmetry", "Pa", &History::largest_asymmetry, true, true},
       {"peak_passed", "", &History::peak_passed, true, true},
+      {"stress_before", "Pa", &History::stress_before, true, true},
       {"platen_stress_bottom", "Pa", &History::platen_stress_bottom, true},
       {"platen_stress_top", "Pa", &History::platen_stress_top, true},
       {"wall_stress_left", "Pa", &History::wall_stress_left, true},
@@ -62,8 +63,8 @@ std::size_t History::filled_columns() const {
   return filled(*this).size();
 }
 
-History History::up_to(double strain, double row) const {
-  const auto end = std::upper_bound(strain_yy.begin(), strain_yy.end(), strain + 0.5 * row);
+History History::up_to(double strain) const {
+  const auto end = std::upper_bound(strain_yy.begin(), strain_yy.end(), strain + strain_rounding);
   const auto kept = static_cast<std::size_t>(end - strain_yy.begin());
   History shorter = *this;
   for (const Column& column : columns())

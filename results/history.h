@@ -8,7 +8,8 @@
 namespace perfora::results {
 
 /// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per
-/// metre of depth. Stresses are means since the last row; all else is at the row.
+/// metre of depth. Stresses are means from half way to the row before to half way to the next one (in the last row, and
+/// everywhere in files of before results_version 4, otherwise: docs/user/formats.md); all else is at the row.
 struct History {
   std::vector<double> strain_yy;  ///< engineering, compression positive
   std::vector<double> strain_yy_log;
@@ -24,6 +25,7 @@ struct History {
   std::vector<double> largest_overlap;    ///< so far, over <d>
   std::vector<double> largest_asymmetry;  ///< so far, Pa
   std::vector<double> peak_passed;        ///< 1 from the row on at which the first peak was known
+  std::vector<double> stress_before;      ///< mean stress_yy from half way to the row before up to the row, Pa
   /// Normal force over the block's nominal edge; empty without platens or side walls.
   std::vector<double> platen_stress_bottom, platen_stress_top, wall_stress_left, wall_stress_right;
 
@@ -38,13 +40,15 @@ struct History {
   static const std::vector<Column>& columns();
   std::size_t rows() const { return strain_yy.size(); }
   std::size_t filled_columns() const;  ///< columns for people that hold a number a row
-  /// Whether the columns from `steps` to `peak_passed` are there (older files have none).
-  bool knows_ends() const { return rows() > 0 && peak_passed.size() == rows(); }
+  /// Whether the columns from `steps` to `stress_before` are there (older files have none).
+  bool knows_ends() const { return rows() > 0 && stress_before.size() == rows(); }
   /// Whether every column that a run fills is there.
   bool is_full() const { return rows() > 0 && cundall.size() == rows(); }
-  /// The rows up to `strain`, included when within half a `row` of it.
-  History up_to(double strain, double row) const;
+  /// The rows up to `strain`, included up to rounding.
+  History up_to(double strain) const;
 };
+/// Strains that differ by less are one: a path adds up to its strains with such an error.
+inline constexpr double strain_rounding = 1e-9;
 
 /// A curve of at most some two hundred points: strain and stress averaged over steps of 0.5 % strain, unchanged below
 /// 3 %. What journals keep.

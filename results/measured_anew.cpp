@@ -31,11 +31,12 @@ std::optional<Evaluation> measured_anew(const Evaluation& stored, const Measurin
   const History& full = stored.curve;
   if (stored.status != RunStatus::completed || !full.is_full()) return {};
   Evaluation evaluation = stored;
-  evaluation.curve = full.up_to(frame.last_row, frame.row);
+  evaluation.curve = full.up_to(frame.until);
   const History& history = evaluation.curve;
-  if (history.rows() == 0 || std::abs(history.strain_yy.back() - frame.last_row) > 0.5 * frame.row) return {};
+  if (history.rows() == 0 || std::abs(history.strain_yy.back() - frame.until) > strain_rounding) return {};
   if (history.rows() < full.rows()) {
     if (!full.knows_ends() || !(history.peak_passed.back() > 0.0)) return {};
+    evaluation.curve.stress_yy.back() = history.stress_before.back();  // no run beyond it: half a mean
     end_with_last_row(history, evaluation.summary);
     evaluation.reason = evaluation.summary.reason;
   }

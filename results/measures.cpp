@@ -241,8 +241,18 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   Piece deviation = window;
   for (double& y : deviation.y) y -= summary.plateau_stress;
   summary.undulation = total != 0.0 ? absolute_integral(deviation) / total : nan;
-  summary.broken_in_window =
-      interpolate(strain, history.broken_bonds, plateau_end) - interpolate(strain, history.broken_bonds, plateau_start);
+  const auto change = [&](const std::vector<double>& column) {
+    return interpolate(strain, column, plateau_end) - interpolate(strain, column, plateau_start);
+  };
+  summary.broken_in_window = change(history.broken_bonds);
+  const double swept = width * reference_area;
+  summary.damage_stress = change(history.damage) / swept;
+  summary.friction_stress = change(history.friction) / swept;
+  summary.viscous_stress = change(history.viscous) / swept;
+  summary.cundall_stress = change(history.cundall) / swept;
+  const double duration = change(history.time);
+  if (duration > 0.0) summary.impact_stress = summary.impact_stress_per_rate * width / duration;
+  if (summary.plateau_stress > 0.0) summary.impact_ratio = summary.impact_stress / summary.plateau_stress;
   summary.energy_absorbed = interpolate(strain, history.external_work, plateau_end) / reference_area;
   summary.densification_strain = last_upward_crossing(strain, stress, densification_factor * summary.plateau_stress);
 }

@@ -8,7 +8,7 @@
 namespace perfora::results {
 
 /// Raised with every change of what an evaluation gives; part of the key of every request.
-inline constexpr int results_version = 3;
+inline constexpr int results_version = 4;
 
 /// As the attributes of a file tell it; empty or 0 where they say nothing.
 struct Provenance {

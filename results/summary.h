@@ -51,6 +51,11 @@ struct Summary {
   std::vector<CurvePeak> peaks;
   double energy_absorbed = not_reached, cundall_fraction = not_reached;
   double broken_in_window = not_reached;
+  /// Work over the window and its strain, Pa: what went into each, together the plateau stress but for what is stored.
+  double damage_stress = not_reached, friction_stress = not_reached, viscous_stress = not_reached,
+         cundall_stress = not_reached;
+  double impact_stress_per_rate = not_reached;  ///< bulk density x wave speed x height, Pa s
+  double impact_stress = not_reached, impact_ratio = not_reached;
   std::int64_t broken_bonds = 0, broken_in_tension = 0, broken_in_shear = 0;
   std::int64_t fragments = 0;
   double largest_fragment_fraction = not_reached;

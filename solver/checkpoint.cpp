@@ -47,13 +47,17 @@ std::vector<double> pack(const Simulation::Progress& p) {
           p.loading.rate,
           p.loading.stress_sum,
           p.loading.mean_stress,
-          p.loading.motion};
+          p.loading.motion,
+          p.loading.last_begin,
+          p.loading.begin,
+          p.loading.end,
+          p.loading.segment_stress};
 }
 
 Simulation::Progress unpack(const std::vector<double>& v) {
   Simulation::Progress p;
   p.steps = static_cast<std::int64_t>(v.at(0));
-  const std::array<double*, 34> fields = {&p.intact,
+  const std::array<double*, 38> fields = {&p.intact,
                                           &p.broken_in_layout,
                                           &p.ledger.external_work,
                                           &p.ledger.damage,
@@ -86,7 +90,11 @@ Simulation::Progress unpack(const std::vector<double>& v) {
                                           &p.loading.rate,
                                           &p.loading.stress_sum,
                                           &p.loading.mean_stress,
-                                          &p.loading.motion};
+                                          &p.loading.motion,
+                                          &p.loading.last_begin,
+                                          &p.loading.begin,
+                                          &p.loading.end,
+                                          &p.loading.segment_stress};
   for (std::size_t k = 0; k < fields.size(); ++k) *fields[k] = v.at(k + 1);
   return p;
 }
@@ -148,8 +156,11 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
   }
   file.group("/history");
   results::write_history(file, "/history", progress.history);
-  file.dataset("/run", std::vector<double>{static_cast<double>(progress.rows), static_cast<double>(progress.frames),
-                                           progress.kinetic_ratio, progress.seconds});
+  const PeakWatch& watch = progress.watch;
+  file.dataset("/run",
+               std::vector<double>{progress.kinetic_ratio, progress.seconds, watch.work, watch.strain, watch.largest,
+                                   watch.largest_at, progress.peak_frame_stress, progress.peak_frame_strain});
+  file.dataset("/frame_strains", progress.frame_strains);
   file.commit();
 }
 
@@ -198,10 +209,15 @@ RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simul
   RunProgress progress;
   progress.history = results::read_history(file, "/history");
   const auto run = file.doubles("/run");
-  progress.rows = static_cast<std::int64_t>(run.at(0));
-  progress.frames = static_cast<int>(run.at(1));
-  progress.kinetic_ratio = run.at(2);
-  progress.seconds = run.at(3);
+  progress.kinetic_ratio = run.at(0);
+  progress.seconds = run.at(1);
+  progress.watch.work = run.at(2);
+  progress.watch.strain = run.at(3);
+  progress.watch.largest = run.at(4);
+  progress.watch.largest_at = run.at(5);
+  progress.peak_frame_stress = run.at(6);
+  progress.peak_frame_strain = run.at(7);
+  progress.frame_strains = file.doubles("/frame_strains");
   simulation.restore(std::move(s));
   return progress;
 }

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "results/history.h"
+#include "solver/peak_watch.h"
 #include "solver/simulation.h"
 
 namespace perfora::solver {
@@ -13,9 +15,10 @@ namespace perfora::solver {
 /// What run.cpp keeps beside the simulation and must find again.
 struct RunProgress {
   results::History history;
-  std::int64_t rows = 0;
-  int frames = 0;
-  double kinetic_ratio = 0.0;  ///< kinetic over elastic energy at the last row before the peak was passed
+  std::vector<double> frame_strains;  ///< of the frames kept so far, rising
+  PeakWatch watch;
+  double peak_frame_stress = 0.0, peak_frame_strain = 0.0;  ///< largest mean of a segment so far, and where
+  double kinetic_ratio = 0.0;  ///< kinetic over elastic energy at the last look before the peak was passed
   double seconds = 0.0;        ///< wall time so far
 };
 

@@ -13,11 +13,12 @@ struct LoadingOptions;   // options.h
 /// What the rates of a run follow from; nothing of it changes while the run goes on. Rates in 1/s.
 struct LoadingPlan {
   double segment_strain = 0.0;  ///< engineering; 0: no plan, the cell moves by itself (cell.h)
-  std::int64_t segments_per_row = 1;
-  double time_step = 0.0;  ///< s
+  double end_strain = 0.0;      ///< where the path ends, the last segment shorter than the others; 0: nowhere
+  double time_step = 0.0;       ///< s
   bool adaptive = false;
   double start_rate = 0.0;       ///< constant: the rate; adaptive: at most this before the first peak has passed
-  double rubble_rate = 0.0;      ///< adaptive: at rest after the first peak, where the rubble carries little
+  double impact_ratio = 0.0;     ///< adaptive: after the first peak, impact stress over the stress carried, at most
+  double least_impact = 0.0;     ///< adaptive: impact stress that is always allowed, so that the run goes on, Pa
   double fastest_rate = 0.0;     ///< adaptive: never more
   double stress_per_rate = 0.0;  ///< impact stress of the block over the rate: bulk density x wave speed x height, Pa s
   double peak_stress = 0.0;      ///< estimated, of the first peak, Pa
@@ -27,13 +28,17 @@ struct LoadingPlan {
 /// Where on its path a run is. Doubles throughout, so that a checkpoint is one dataset; whole numbers in them are
 /// exact.
 struct LoadingState {
-  double segment = 0.0;      ///< segments finished
-  double step = 0.0;         ///< steps done in the present one
-  double steps = 0.0;        ///< its steps; 0: it has yet to begin
-  double rate = 0.0;         ///< its rate, 1/s
-  double stress_sum = 0.0;   ///< of its steps so far, Pa
-  double mean_stress = 0.0;  ///< running mean of the stress over the last strain, Pa
-  double motion = 0.0;       ///< energy that had gone into motion when the segment began, J per metre of depth
+  double segment = 0.0;         ///< segments finished
+  double last_begin = 0.0;      ///< engineering strain at which the last one began,
+  double begin = 0.0;           ///< the present one begins,
+  double end = 0.0;             ///< and ends
+  double step = 0.0;            ///< steps done in it
+  double steps = 0.0;           ///< its steps; 0: it has yet to begin
+  double rate = 0.0;            ///< its rate, 1/s
+  double stress_sum = 0.0;      ///< of its steps so far, Pa
+  double segment_stress = 0.0;  ///< mean of the last finished segment, Pa
+  double mean_stress = 0.0;     ///< running mean of the stress over the last strain, Pa
+  double motion = 0.0;          ///< energy that had gone into motion when the segment began, J per metre of depth
 };
 
 /// What the controller looks at when a segment is over.
@@ -44,8 +49,13 @@ struct SegmentMeasures {
 };
 
 /// Engineering strain of the path: a closed function of segment and step.
-inline double path_strain(const LoadingPlan& plan, const LoadingState& state) {
-  return (state.segment + (state.steps > 0.0 ? state.step / state.steps : 0.0)) * plan.segment_strain;
+inline double path_strain(const LoadingState& state) {
+  if (state.steps == 0.0) return state.begin;
+  return state.step == state.steps ? state.end : state.begin + state.step / state.steps * (state.end - state.begin);
+}
+/// Whether the path is at its end.
+inline bool at_end(const LoadingPlan& plan, const LoadingState& state) {
+  return plan.end_strain > 0.0 && state.begin >= plan.end_strain;
 }
 
 /// Rate that the measures allow (docs/user/theory.md, "Loading rate"), without regard to the rate before.
@@ -58,15 +68,19 @@ void finish_segment(const LoadingPlan& plan, LoadingState& state);
 /// kinetic (the drift of all discs together left out) and what damping and dashpots have taken from it.
 SegmentMeasures measure_segment(const LoadingPlan& plan, double motion, bool peak_passed, LoadingState& state);
 
-/// Begins a segment: the allowed rate, no more than `largest_speed_up` and no less than `largest_slow_down` times the
-/// last one, rounded down to a whole number of steps.
+/// Begins a segment, to the next multiple of plan.segment_strain or to the end of the path: the allowed rate, no more
+/// than `largest_speed_up` and no less than `largest_slow_down` times the last one, rounded down to a whole number of
+/// steps.
 void begin_segment(const LoadingPlan& plan, const SegmentMeasures& measures, LoadingState& state);
 inline constexpr double largest_speed_up = 1.25;
 inline constexpr double largest_slow_down = 0.5;
 
-/// The plan of a constant rate (1/s): one segment a row, the step shortened from `longest_step` (s) so that a whole
-/// number of steps makes it.
-LoadingPlan constant_loading(double rate, double row_strain, double longest_step);
+/// Strain of a segment. What is written, and how finely, changes nothing of the path.
+inline constexpr double path_segment = 6.25e-5;
+
+/// The plan of a constant rate (1/s): the step is shortened from `longest_step` (s) so that a whole number of them
+/// makes a segment; where one step makes more than `path_segment`, segments are the multiple of it that holds one.
+LoadingPlan constant_loading(double rate, double longest_step);
 
 /// The plan that the options ask for, of a block without its edges' surroundings: width and height in m, holes up to
 /// `largest_hole` wide (m; 0: none).
@@ -74,11 +88,10 @@ struct LoadedBlock {
   double width = 0.0, height = 0.0, largest_hole = 0.0;
 };
 LoadingPlan plan_loading(const LoadingEstimate& estimate, const LoadingOptions& options, const LoadedBlock& block,
-                         double row_strain, double longest_step);
+                         double longest_step);
 
-/// Steps up to `until` (engineering strain): counted for a constant rate; for an adaptive one those of a block whose
+/// Steps to the end of the plan: counted for a constant rate; for an adaptive one those of a block whose
 /// stress takes the common course of perforated blocks, with the bulk's `solid_fraction`. Good to some twenty per cent.
-std::int64_t expected_steps(const LoadingPlan& plan, const LoadingEstimate& estimate, double until,
-                            double solid_fraction);
+std::int64_t expected_steps(const LoadingPlan& plan, const LoadingEstimate& estimate, double solid_fraction);
 
 }  // namespace perfora::solver

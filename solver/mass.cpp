@@ -2,16 +2,16 @@
 #include "solver/mass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "solver/laws.h"
 
 namespace perfora::solver {
 namespace {
-
-constexpr double contacts_to_come = 6.0;  // normal springs a disc may get in the rubble, docs/user/theory.md "Motion"
 
 /// How many times the contacts to come count in the masses of uniform_step. Discs that holes took bonds from are the
 /// lightest, and in contacts they limit the step: with 10 for 1 that limit is 1.2 times longer on Table 1's networks
@@ -23,12 +23,15 @@ struct Stiffness {
   std::vector<double> rotation;     // KR_i, N m
 };
 
-Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, const BondNetwork& network,
-                         const MaterialOptions& material) {
-  Stiffness k{std::vector<double>(discs, contacts_to_come * material.normal_stiffness), std::vector<double>(discs)};
+Stiffness disc_stiffness(const std::vector<double>& contacts, const geometry::Packing& clipped,
+                         const BondNetwork& network, const MaterialOptions& material) {
+  const std::size_t discs = contacts.size();
+  Stiffness k{std::vector<double>(discs), std::vector<double>(discs)};
   // Contacts turn a disc with lever R: keeps the rotation of discs without long bonds bounded.
-  for (std::size_t d = 0; d < discs; ++d)
-    k.rotation[d] = contacts_to_come * material.tangential_stiffness * clipped.radius[d] * clipped.radius[d];
+  for (std::size_t d = 0; d < discs; ++d) {
+    k.translation[d] = contacts[d] * material.normal_stiffness;
+    k.rotation[d] = contacts[d] * material.tangential_stiffness * clipped.radius[d] * clipped.radius[d];
+  }
   for (std::int64_t b = 0; b < network.size(); ++b) {
     const auto id = static_cast<std::size_t>(b);
     const double l = network.reference_length[id];
@@ -40,26 +43,69 @@ Stiffness disc_stiffness(std::size_t discs, const geometry::Packing& clipped, co
   return k;
 }
 
+/// A disc smaller than its neighbours may have as many as one among equals: they need not lie side by side for long.
+constexpr double fewest_contacts = 6.0;
+
+/// Radii at these fractions of all discs stand for the sizes that a disc may meet, from the median up.
+constexpr std::array<double, 6> size_classes = {0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+
+/// A radius and the largest mass of the discs up to it, m and kg/m.
+struct SizeClass {
+  double radius, mass;
+};
+
+std::vector<SizeClass> classes_of(const std::vector<double>& radius, const std::vector<double>& mass) {
+  std::vector<std::size_t> order(radius.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radius[a] < radius[b]; });
+  std::vector<SizeClass> classes;
+  double largest_mass = 0.0;
+  std::size_t next = 0;
+  for (const double fraction : size_classes) {
+    const auto last = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(order.size()))) - 1;
+    for (; next <= last; ++next) largest_mass = std::max(largest_mass, mass[order[next]]);
+    classes.push_back({radius[order[last]], largest_mass});
+  }
+  return classes;
+}
+
 }  // namespace
+
+double contacts_around(double radius, double neighbour) {
+  return std::numbers::pi / std::asin(neighbour / (radius + neighbour));
+}
+
+std::vector<double> contacts_to_come(const std::vector<double>& radius) {
+  std::vector<double> sorted = radius;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<double> contacts;
+  contacts.reserve(radius.size());
+  for (const double r : radius) contacts.push_back(std::max(fewest_contacts, contacts_around(r, *middle)));
+  return contacts;
+}
 
 MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
                            const MaterialOptions& material, const DynamicsOptions& dynamics) {
   const std::size_t n = clipped.x.size();
-  const Stiffness k = disc_stiffness(n, clipped, network, material);
+  const std::vector<double> contacts = contacts_to_come(clipped.radius);
+  const Stiffness k = disc_stiffness(contacts, clipped, network, material);
   MassProperties m;
   m.mass.resize(n);
   m.inertia.resize(n);
-  const double more_for_contacts = (contact_mass_weight - 1.0) * contacts_to_come * material.normal_stiffness;
+  const auto weight = [&](std::size_t d) {
+    return k.translation[d] + (contact_mass_weight - 1.0) * contacts[d] * material.normal_stiffness;
+  };
   double total_stiffness = 0.0;
   for (std::size_t d = 0; d < n; ++d) {
     m.mass[d] = material.density * std::numbers::pi * clipped.radius[d] * clipped.radius[d];
     m.inertia[d] = 0.5 * m.mass[d] * clipped.radius[d] * clipped.radius[d];
     m.total += m.mass[d];
-    total_stiffness += k.translation[d] + more_for_contacts;
+    total_stiffness += weight(d);
   }
   if (dynamics.mass == MassScaling::uniform_step) {
     for (std::size_t d = 0; d < n; ++d) {
-      m.mass[d] = m.total * (k.translation[d] + more_for_contacts) / total_stiffness;
+      m.mass[d] = m.total * weight(d) / total_stiffness;
       m.inertia[d] = m.mass[d] * k.rotation[d] / k.translation[d];
     }
   }
@@ -121,12 +167,21 @@ double critical_step_by_power_iteration(const BondNetwork& network, const MassPr
   return 2.0 / std::sqrt(omega_squared * (1.0 + cundall_damping));
 }
 
-double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping) {
+double contact_critical_step(const MassProperties& masses, const std::vector<double>& radius,
+                             const MaterialOptions& material, double cundall_damping) {
+  const std::vector<double> contacts = contacts_to_come(radius);
+  const std::vector<SizeClass> classes = classes_of(radius, masses.mass);
   double least = std::numeric_limits<double>::infinity();
-  for (const double m : masses.mass) {
-    const double k = contacts_to_come * material.normal_stiffness * (1.0 + cundall_damping);
-    const double c = contacts_to_come * 2.0 * material.viscous_rate * std::sqrt(0.5 * material.normal_stiffness * m) *
-                     (1.0 + cundall_damping);
+  for (std::size_t d = 0; d < radius.size(); ++d) {
+    const double m = masses.mass[d];
+    double root = 0.0;  // sum over the contacts of sqrt(m_eff), of the sizes that make it largest
+    for (const SizeClass& other : classes) {
+      const double effective = m * other.mass / (m + other.mass);
+      root = std::max(root, std::min(contacts[d], contacts_around(radius[d], other.radius)) * std::sqrt(effective));
+    }
+    const double k = contacts[d] * material.normal_stiffness * (1.0 + cundall_damping);
+    const double c =
+        2.0 * material.viscous_rate * std::sqrt(material.normal_stiffness) * root * (1.0 + cundall_damping);
     least = std::min(least, (std::sqrt(c * c + 4.0 * k * m) - c) / k);
   }
   return least;

@@ -18,8 +18,9 @@ struct MassProperties {
 };
 
 /// Masses and the bound dt_c = 2/(omega sqrt(1+c)), omega^2 <= 2 max_i (K_i/m_i + KR_i/I_i), K_i = sum (k_n+k_t)/2 over
-/// bonds + 6 k_n for contacts to come, KR_i = sum k_t l^2/4 (docs/user/theory.md, "Motion"). `physical`: rho pi R^2 and
-/// m R^2/2. `uniform_step`: m_i ~ K_i + 54 k_n (contacts count tenfold) with the total kept and I_i = m_i KR_i/K_i, so
+/// bonds + n_i k_n for contacts to come, KR_i = sum k_t l^2/4 + n_i k_t R_i^2 (docs/user/theory.md, "Motion").
+/// `physical`: rho pi R^2 and m R^2/2. `uniform_step`: m_i ~ K_i + 9 n_i k_n (contacts count tenfold) with the total
+/// kept and I_i = m_i KR_i/K_i, so
 /// that all discs have nearly the same critical step in bonds and in contacts; statics are exact.
 MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& network,
                            const MaterialOptions& material, const DynamicsOptions& dynamics);
@@ -29,10 +30,17 @@ MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& 
 double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses,
                                         const MaterialOptions& material, double cundall_damping, int iterations = 60);
 
-/// Longest stable step of a disc held by contacts alone: the root of K dt^2 + 2 C dt = 4 m of a spring and a dashpot
-/// whose force lags by half a step, with K = 6 k_n and C = 12 beta sqrt(k_n m/2) for six contacts with equal
-/// neighbours, both times (1 + c) for Cundall damping; the least over all discs.
-double contact_critical_step(const MassProperties& masses, const MaterialOptions& material, double cundall_damping);
+/// Discs of radius `neighbour` that fit around one of `radius` in contact with it: pi/asin(r/(R + r)).
+double contacts_around(double radius, double neighbour);
+/// n_i: contacts that a disc may get in the rubble: discs of the median size around it, at least six.
+std::vector<double> contacts_to_come(const std::vector<double>& radius);
+
+/// Longest stable step of a disc held by contacts alone: the root of K dt^2 + 2 C dt = 4 m of springs and dashpots
+/// whose force lags by half a step, with K = n_i k_n and C = 2 beta sqrt(k_n) sum sqrt(m_eff) over its contacts, for
+/// the neighbours from the median size up that make the sum largest; both times (1 + c) for Cundall damping. The least
+/// over all discs.
+double contact_critical_step(const MassProperties& masses, const std::vector<double>& radius,
+                             const MaterialOptions& material, double cundall_damping);
 
 /// Share of Voigt's C11 that a relaxed packing keeps (0.82 to 0.96 for H = 2 to 4, docs/developer/verification.md).
 inline constexpr double network_ratio = 0.85;

@@ -170,7 +170,7 @@ Ready make_ready(const MaterialTestRequest& request, MaterialTestResult& result)
                                                                     options.dynamics.cundall_damping));
   const double longest =
       std::min(options.dynamics.step_factor * critical,
-               contact_critical_step(input.masses, options.material, options.dynamics.cundall_damping));
+               contact_critical_step(input.masses, sample.radius, options.material, options.dynamics.cundall_damping));
   const double row_time = ready.yield_strain / rows_to_yield / result.rate;
   ready.steps_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(row_time / longest)));
   input.time_step = result.time_step = row_time / static_cast<double>(ready.steps_per_row);

@@ -81,7 +81,13 @@ void describe(io::Schema& schema, SolverOptions& options) {
             "Strain rate dH/dt/H0, constant; 0: from control and transits.")
       .real("transits", loading.transits, Dimension::none, Range::positive(),
             "Wave transits of the block before the first peak, from its estimated modulus and peak strain: the higher, "
-            "the slower everything goes.");
+            "the slower the first peak is approached.")
+      .real("impact_ratio", loading.impact_ratio, Dimension::ratio, {0.0, 10.0, true, false},
+            "adaptive: behind the first peak, impact stress (density x wave speed x height x rate) over the stress "
+            "carried: 0.1 for results to rely on, more for a fast search.")
+      .real("least_impact", loading.least_impact, Dimension::ratio, {0.0, 1.0, true, false},
+            "adaptive: impact stress that is always allowed behind the first peak, over the estimated stress of that "
+            "peak, so that a block that carries nothing is not waited for; 0.04 for a fast search.");
   DynamicsOptions& dynamics = options.dynamics;
   schema.section("dynamics", "Integration and damping.")
       .real("cundall_damping", dynamics.cundall_damping, Dimension::ratio, {0.0, 1.0, false, true},
@@ -129,7 +135,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real_list("frame_strains", output.frame_strains, Dimension::ratio, Range::between(0.0, 0.9),
                  "Strains of frames instead of `frames`.")
       .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false},
-            "Strain between history rows.")
+            "Strain between samples of the history; it changes nothing of the run.")
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
             "Wall time between checkpoints.");
   TestOptions& test = options.test;

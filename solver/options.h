@@ -62,8 +62,10 @@ struct NoiseOptions {
 struct LoadingOptions {
   double until = 0.60;  ///< engineering strain
   LoadingControl control = LoadingControl::adaptive;
-  double rate = 0.0;       ///< 1/s, constant; 0: from `transits`
-  double transits = 25.0;  ///< wave transits of the block before the first peak
+  double rate = 0.0;            ///< 1/s, constant; 0: from `transits`
+  double transits = 25.0;       ///< wave transits of the block before the first peak
+  double impact_ratio = 0.1;    ///< impact stress over the stress carried, behind the first peak
+  double least_impact = 0.01;   ///< impact stress that is always allowed there, over the estimated first peak's stress
 };
 
 /// [dynamics]

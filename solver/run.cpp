@@ -1,5 +1,5 @@
-// What is here: one compression: rows, frames, checkpoints, stopping, summary. What is not: step and rate
-// (run_setup.h).
+// What is here: one compression: frames, checkpoints, stopping, summary. What is not: step and rate (run_setup.h),
+// samples (samples.h).
 #include "solver/run.h"
 
 #include <fmt/format.h>
@@ -17,10 +17,10 @@
 #include "results/measures.h"
 #include "results/run_file.h"
 #include "solver/checkpoint.h"
-#include "solver/fragments.h"
 #include "solver/frame.h"
 #include "solver/run_folder.h"
 #include "solver/run_setup.h"
+#include "solver/samples.h"
 #include "solver/simulation.h"
 
 namespace perfora::solver {
@@ -28,11 +28,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double peak_passed_ratio =
-    0.8;  // a row below this fraction of the largest row so far ends the search for the first peak
-constexpr double latest_peak =
-    10.0;  // times the estimated peak strain: a later fall is a serration of the rubble, not the first peak
-constexpr double least_peak_strain = 2e-4;  // rows before that are too close to zero stress to tell a fall
 constexpr double unstable_overlap = 1.0;  // overlap over <d> at which discs pass through each other: the run has failed
 constexpr std::int64_t steps_between_looks = 64;  // at the clock and the request to stop
 
@@ -40,19 +35,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Rows after which a frame is written, the first peak aside.
-bool frame_due(const OutputOptions& output, std::int64_t row, std::int64_t rows) {
-  const auto at_multiple = [&](double stride) {
-    const auto every = std::max<std::int64_t>(1, std::llround(stride / output.history_interval));
-    return row % every == 0;
-  };
+/// Strains of frames beyond the start, rising, the first peak aside.
+std::vector<double> frame_strains(const OutputOptions& output, double until) {
+  std::vector<double> strains;
   if (!output.frame_strains.empty()) {
     for (const double strain : output.frame_strains)
-      if (row == std::llround(strain / output.history_interval)) return true;
-    return false;
+      if (strain > 0.0 && strain <= until) strains.push_back(strain);
+  } else if (output.frames != FrameChoice::none) {
+    const int per_unit = output.frames == FrameChoice::all ? 100 : 10;
+    for (int k = 1; k < until * per_unit; ++k) strains.push_back(static_cast<double>(k) / per_unit);
+    strains.push_back(until);
   }
-  if (output.frames == FrameChoice::none) return false;
-  return row == rows || at_multiple(output.frames == FrameChoice::all ? 0.01 : 0.1);
+  std::sort(strains.begin(), strains.end());
+  return strains;
 }
 
 /// One run in progress.
@@ -62,7 +57,8 @@ class Run {
       : request_(request),
         setup_(set_up_run(request)),
         folder_(request.run_file),
-        original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())) {
+        original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())),
+        frame_strains_(frame_strains(request.options.output, request.options.loading.until)) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
     results::Summary& summary = response_.summary;
     summary.noise_mean = strength.mean;
@@ -113,8 +109,6 @@ class Run {
     if (writes()) {
       if (request_.resume && folder_.can_resume(identity(), request_.in_names_of_today)) {
         progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
-        for (const double stress : progress_.history.stress_yy)
-          largest_row_stress_ = std::max(largest_row_stress_, stress);
         io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
       } else {
         folder_.start_afresh(identity());
@@ -123,12 +117,14 @@ class Run {
     first_step_ = simulation_->steps();
     first_bond_steps_ = simulation_->bond_steps();
     earlier_seconds_ = progress_.seconds;
-    if (progress_.history.rows() == 0) {
-      add_row();
-      const auto& strains = request_.options.output.frame_strains;
-      const bool wants_start = strains.empty() || std::find(strains.begin(), strains.end(), 0.0) != strains.end();
-      if (wants_frames() && wants_start) keep_frame();
-    }
+    const bool fresh = progress_.history.rows() == 0;
+    samples_.emplace(progress_.history, request_.options.output.history_interval, request_.options.loading.until,
+                     request_.mean_diameter);
+    samples_->start(*simulation_);
+    while (next_frame() <= simulation_->strain()) ++next_frame_;
+    const auto& strains = request_.options.output.frame_strains;
+    const bool wants_start = strains.empty() || std::find(strains.begin(), strains.end(), 0.0) != strains.end();
+    if (fresh && wants_frames() && wants_start) keep_frame(take_frame(*simulation_, original_bonds_));
   }
 
   bool wants_frames() const {
@@ -137,20 +133,44 @@ class Run {
   }
 
   void loop() {
-    while (progress_.rows < setup_.rows) {
+    while (!at_end(setup_.plan, simulation_->loading())) {
       simulation_->step();
-      const std::int64_t steps = simulation_->steps();
+      samples_->after_step(*simulation_);
+      const double next = next_frame();
+      if (wants_frames() && simulation_->strain() >= next) keep_due_frame();
       const LoadingState& path = simulation_->loading();
-      if (path.steps == 0.0 && static_cast<std::int64_t>(path.segment) % setup_.plan.segments_per_row == 0) {
-        ++progress_.rows;
-        add_row();
-        if (failed()) return;
-        after_row();
-      }
-      if (steps % steps_between_looks == 0 && look()) return;
+      if (path.steps == 0.0 && !after_segment(path)) return;
+      if (simulation_->steps() % steps_between_looks == 0 && look()) return;
     }
     response_.summary.status = results::RunStatus::completed;
     response_.summary.reason = results::reached_text(simulation_->strain());
+  }
+
+  /// False: the run has failed.
+  bool after_segment(const LoadingState& path) {
+    PeakWatch& watch = progress_.watch;
+    const bool looking = !simulation_->peak_frozen();
+    if (looking && path.segment_stress > progress_.peak_frame_stress) {
+      progress_.peak_frame_stress = path.segment_stress;
+      progress_.peak_frame_strain = path.begin;
+      if (wants_peak_frame()) peak_frame_ = take_frame(*simulation_, original_bonds_);
+    }
+    if (!watch.ends_piece(path.segment_stress, path.begin - path.last_begin, path.begin)) return true;
+    if (failed()) return false;
+    if (looking) look_for_peak();
+    if (request_.progress) report();
+    return true;
+  }
+
+  void look_for_peak() {
+    const Ledger energy = simulation_->ledger();
+    if (!(energy.elastic_bonds > 0.0)) return;
+    if (!progress_.watch.passed(setup_.loading.peak_strain)) {
+      progress_.kinetic_ratio = energy.kinetic / energy.elastic_bonds;
+      return;
+    }
+    simulation_->freeze_peak();
+    if (wants_peak_frame()) keep_peak_frame();
   }
 
   /// At the clock, the request to stop and the checkpoint; true: stop here.
@@ -167,6 +187,7 @@ class Run {
     }
     if (writes() && (stopping || seconds_since(last_checkpoint_) > request_.options.output.checkpoint_interval)) {
       progress_.seconds = earlier_seconds_ + now;
+      if (peak_frame_) results::write_frame(folder_.peak_frame_file(), *peak_frame_);  // first: see keep_peak_frame()
       write_checkpoint(folder_.checkpoint_file(), *simulation_, progress_);
       last_checkpoint_ = Clock::now();
     }
@@ -177,114 +198,56 @@ class Run {
     return stopping;
   }
 
-  void add_row() {
-    const Virial stress = simulation_->row_stress();
-    const Ledger energy = simulation_->ledger();
-    const double strain = simulation_->strain();
-    if (fragments_at_breaks_ != static_cast<std::int64_t>(simulation_->events().size())) {
-      fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
-      fragments_at_breaks_ = static_cast<std::int64_t>(simulation_->events().size());
-    }
-    results::History& h = progress_.history;
-    h.strain_yy.push_back(strain);
-    h.strain_yy_log.push_back(-std::log(1.0 - strain));
-    h.stress_yy.push_back(stress.yy);
-    h.stress_xx.push_back(stress.xx);
-    h.stress_xy.push_back(0.5 * (stress.xy + stress.yx));
-    h.stress_asymmetry.push_back(std::fabs(stress.xy - stress.yx));
-    h.broken_bonds.push_back(static_cast<double>(simulation_->events().size()));
-    h.fragments.push_back(fragments_.count);
-    h.contacts.push_back(static_cast<double>(simulation_->contacts()));
-    h.rate.push_back(
-        h.time.empty() ? 0.0 : (strain - h.strain_yy[h.time.size() - 1]) / (simulation_->time() - h.time.back()));
-    h.time.push_back(simulation_->time());
-    h.external_work.push_back(energy.external_work);
-    h.elastic_bonds.push_back(energy.elastic_bonds);
-    h.elastic_contacts.push_back(energy.elastic_contacts);
-    h.kinetic.push_back(energy.kinetic);
-    h.damage.push_back(energy.damage);
-    h.friction.push_back(energy.friction);
-    h.viscous.push_back(energy.viscous);
-    h.cundall.push_back(energy.cundall);
-    add_pressures();
-    simulation_->reset_row();
-    find_peak(stress.yy, strain, energy);
-    add_ends();
+  void report() const {
+    const double elapsed = seconds_since(started_);
+    const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
+    const double strain = path_strain(simulation_->loading()), stress = progress_.watch.last();
+    request_.progress({strain / request_.options.loading.until,
+                       fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * strain,
+                                   io::quantity(stress, io::Dimension::stress), io::count(rate)),
+                       strain, stress});
   }
 
-  /// The first peak is known once a row has fallen far enough below the largest so far.
-  void find_peak(double stress, double strain, const Ledger& energy) {
-    if (!simulation_->peak_frozen() && energy.elastic_bonds > 0.0) {
-      if (stress > largest_row_stress_) {
-        largest_row_stress_ = stress;
-        largest_row_strain_ = strain;
-      }
-      if (strain > least_peak_strain && stress < peak_passed_ratio * largest_row_stress_ &&
-          largest_row_strain_ < latest_peak * setup_.loading.peak_strain) {
-        simulation_->freeze_peak();
-        peak_just_passed_ = true;
-      } else {
-        progress_.kinetic_ratio = energy.kinetic / energy.elastic_bonds;
-      }
-    }
+  /// Engineering strain; beyond the end where none is due.
+  double next_frame() const {
+    return next_frame_ < frame_strains_.size() ? frame_strains_[next_frame_] - results::strain_rounding
+                                               : std::numeric_limits<double>::infinity();
   }
 
-  /// What the summary would say if the run ended here. A run resumed from a checkpoint without these columns goes on
-  /// without them.
-  void add_ends() {
-    results::History& h = progress_.history;
-    if (h.peak_passed.size() + 1 != h.rows()) return;
-    h.steps.push_back(static_cast<double>(simulation_->steps()));
-    h.broken_in_tension.push_back(static_cast<double>(broken_in_tension()));
-    h.largest_fragment.push_back(fragments_.largest_fraction);
-    h.largest_overlap.push_back(simulation_->largest_overlap() / request_.mean_diameter);
-    h.largest_asymmetry.push_back(simulation_->largest_asymmetry());
-    h.peak_passed.push_back(simulation_->peak_frozen() ? 1.0 : 0.0);
+  void keep_due_frame() {
+    while (next_frame() <= simulation_->strain()) ++next_frame_;
+    keep_frame(take_frame(*simulation_, original_bonds_));
   }
 
-  std::int64_t broken_in_tension() {
-    const std::vector<results::BreakEvent>& events = simulation_->events();
-    for (; counted_events_ < events.size(); ++counted_events_)
-      if (events[counted_events_].mode == results::BreakMode::tension) ++counted_in_tension_;
-    return counted_in_tension_;
+  void keep_frame(const results::Frame& frame) {
+    results::write_frame(folder_.frame_file(static_cast<int>(progress_.frame_strains.size())), frame);
+    progress_.frame_strains.push_back(frame.info.strain);
   }
 
-  /// Mean pressures on platens and side walls; their columns exist only where such walls are.
-  void add_pressures() {
-    results::History& h = progress_.history;
-    const Walls& walls = simulation_->walls();
-    for (std::size_t w = 0; w < walls.places().size(); ++w) {
-      if (!walls.places()[w].edge) continue;
-      std::vector<double>* const columns[] = {&h.platen_stress_bottom, &h.platen_stress_top, &h.wall_stress_left,
-                                              &h.wall_stress_right};
-      columns[static_cast<std::size_t>(walls.places()[w].side)]->push_back(walls.row_pressure(w));
-    }
-  }
+  bool wants_peak_frame() const { return wants_frames() && request_.options.output.frame_strains.empty(); }
 
-  void after_row() {
-    if (wants_frames() && (frame_due(request_.options.output, progress_.rows, setup_.rows) ||
-                           (peak_just_passed_ && request_.options.output.frame_strains.empty())))
-      keep_frame();
-    peak_just_passed_ = false;
-    if (request_.progress) {
-      const double elapsed = seconds_since(started_);
-      const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
-      const double strain = simulation_->strain(), stress = progress_.history.stress_yy.back();
-      request_.progress({static_cast<double>(progress_.rows) / static_cast<double>(setup_.rows),
-                         fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * strain,
-                                     io::quantity(stress, io::Dimension::stress), io::count(rate)),
-                         strain, stress});
-    }
-  }
-
-  void keep_frame() {
-    results::write_frame(folder_.frame_file(progress_.frames++), take_frame(*simulation_, original_bonds_));
+  /// The peak is known only when it is behind; its frame was kept aside when the stress was largest. A resumed run
+  /// finds it in the folder: written before each checkpoint, it is never older than the state, and a run that goes on
+  /// from an older state meets the larger stresses again.
+  void keep_peak_frame() {
+    if (peak_frame_) results::write_frame(folder_.peak_frame_file(), *peak_frame_);
+    if (!std::filesystem::exists(folder_.peak_frame_file())) return;
+    std::vector<double>& kept = progress_.frame_strains;
+    const auto place = std::upper_bound(kept.begin(), kept.end(), progress_.peak_frame_strain);
+    const auto number = static_cast<int>(place - kept.begin());
+    for (int k = static_cast<int>(kept.size()); k > number; --k)
+      std::filesystem::copy_file(folder_.frame_file(k - 1), folder_.frame_file(k),
+                                 std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(folder_.peak_frame_file(), folder_.frame_file(number),
+                               std::filesystem::copy_options::overwrite_existing);
+    kept.insert(place, progress_.peak_frame_strain);
+    peak_frame_.reset();
   }
 
   bool failed() {
-    const results::History& h = progress_.history;
     const double overlap = simulation_->largest_overlap() / request_.mean_diameter;
-    if (std::isfinite(h.stress_yy.back()) && std::isfinite(h.kinetic.back()) && overlap < unstable_overlap)
+    if (std::isfinite(simulation_->loading().segment_stress) &&
+        std::isfinite(simulation_->kinetic_energy_at_half_step()) && overlap < unstable_overlap)
       return false;
     response_.summary.status = results::RunStatus::failed;
     response_.summary.reason =
@@ -301,22 +264,23 @@ class Run {
     results::measure_rate(h, s);
     s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
+    s.impact_stress_per_rate = setup_.plan.stress_per_rate;
     const double area = request_.layout->width * request_.layout->height;
     results::measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
     s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
-    s.broken_in_tension = broken_in_tension();
+    s.broken_in_tension = samples_->broken_in_tension(*simulation_);
     s.broken_in_shear = s.broken_bonds - s.broken_in_tension;
-    if (fragments_.label.empty() || fragments_at_breaks_ != s.broken_bonds)
-      fragments_ = find_fragments(simulation_->network(), simulation_->discs().radius);
-    s.fragments = fragments_.count;
-    s.largest_fragment_fraction = fragments_.largest_fraction;
+    const Fragments& fragments = samples_->fragments(*simulation_);
+    s.fragments = fragments.count;
+    s.largest_fragment_fraction = fragments.largest_fraction;
     s.max_overlap_in_run = simulation_->largest_overlap() / request_.mean_diameter;
     s.energy_residual = results::energy_residual(h, results::residual_from_strain);
     s.stress_asymmetry =
         simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
     const double modulus = results::loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
     const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
-    s.transits_before_peak = simulation_->peak_time() * wave_speed / request_.layout->height;
+    s.transits_before_peak =
+        simulation_->peak_frozen() ? simulation_->peak_time() * wave_speed / request_.layout->height : nan;
     s.kinetic_ratio_at_peak = simulation_->peak_frozen() ? progress_.kinetic_ratio : nan;
 
     results::Performance& p = response_.performance;
@@ -331,7 +295,8 @@ class Run {
     p.peak_memory = io::peak_memory_bytes();
     response_.history = h;
     if (!writes()) return;
-    results::write_run(request_.run_file, record(), folder_.frame_files(progress_.frames), request_.periodic);
+    results::write_run(request_.run_file, record(),
+                       folder_.frame_files(static_cast<int>(progress_.frame_strains.size())), request_.periodic);
     if (s.status != results::RunStatus::stopped) folder_.remove();  // a stopped run can be resumed from it
   }
 
@@ -367,15 +332,13 @@ class Run {
   RunSetup setup_;
   RunFolder folder_;
   std::vector<std::int32_t> original_bonds_;
+  std::vector<double> frame_strains_;
+  std::size_t next_frame_ = 0;
   std::optional<Simulation> simulation_;
   RunProgress progress_;
+  std::optional<Samples> samples_;
   Response response_;
-  Fragments fragments_;
-  std::int64_t fragments_at_breaks_ = -1;
-  std::size_t counted_events_ = 0;
-  std::int64_t counted_in_tension_ = 0;
-  double largest_row_stress_ = 0.0, largest_row_strain_ = 0.0;
-  bool peak_just_passed_ = false;
+  std::optional<results::Frame> peak_frame_;  // at the largest mean stress of a segment so far
   Clock::time_point started_, last_checkpoint_;
   std::int64_t first_step_ = 0;
   double first_bond_steps_ = 0.0;

@@ -21,6 +21,8 @@ class RunFolder {
   bool can_resume(const std::string& config,
                   const std::function<std::string(const std::string&)>& in_names_of_today) const;
   std::filesystem::path frame_file(int number) const;
+  /// Where the frame at the largest stress so far is kept aside.
+  std::filesystem::path peak_frame_file() const { return folder_ / "frames" / "peak.h5"; }
   /// The first `count` of them.
   std::vector<std::filesystem::path> frame_files(int count) const;
   std::filesystem::path checkpoint_file() const { return folder_ / "checkpoint.h5"; }

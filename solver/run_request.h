@@ -39,7 +39,7 @@ struct RunRequest {
   io::Cancellation cancellation;  ///< requested: a checkpoint is written, the run stops with reason "signal"
   /// /summary of R.h5, made from the finished response (what `perfora evaluate --json` prints). May be empty.
   std::function<nlohmann::json(const Response&)> summary;
-  results::ProgressCallback progress;  ///< called at history rows; may be empty
+  results::ProgressCallback progress;  ///< called every 0.05 % of strain; may be empty
 };
 
 struct Response {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/open_area.h"
 #include "io/error.h"
 #include "solver/kernels/kernels.h"
 
@@ -20,17 +21,24 @@ void refuse_missing_simd(SimdChoice simd) {
 
 }  // namespace
 
-std::int64_t rows_until(double until, double interval) {
-  constexpr double rounding = 1e-9;
-  return static_cast<std::int64_t>(std::ceil(until / interval - rounding));
-}
-
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout) {
   LoadedBlock block{layout.width, layout.height, 0.0};
   for (const geometry::Perforation& hole : layout.perforations)
     block.largest_hole = std::max(block.largest_hole, hole.largest_extent());
   return block;
 }
+
+namespace {
+
+/// Fraction of the cell in openings. Those of an imported packing are known from its discs alone: circles of one mean
+/// diameter fit into openings, not into the gaps of a packing.
+double porosity_of(const RunRequest& request) {
+  if (!request.layout->perforations.empty() || request.clipped->key.source.empty())
+    return 1.0 - request.layout->solid_area_fraction();
+  return geometry::open_fraction(*request.clipped, request.mean_diameter);
+}
+
+}  // namespace
 
 RunSetup set_up_run(const RunRequest& request) {
   const SolverOptions& options = request.options;
@@ -45,18 +53,17 @@ RunSetup set_up_run(const RunRequest& request) {
                          "raise the horizon or the solid fraction");
   s.masses = make_masses(s.specimen.packing, s.network, options.material, options.dynamics);
   s.loading = estimate_loading(s.network, s.masses, options, request.layout->width, request.layout->height,
-                               1.0 - request.layout->solid_area_fraction(), request.mean_diameter);
-  const double interval = options.output.history_interval;
+                               porosity_of(request), request.mean_diameter);
   // The bound per disc is pessimistic by a factor of 1.4 for uniform_step; power iteration on the intact network gives
   // the step that counts, with step_factor as its margin. Rubble is held by contacts: their own limit, dashpots
   // included, stands beside it.
   s.critical_step = std::max(
       s.masses.critical_step,
       critical_step_by_power_iteration(s.network, s.masses, options.material, options.dynamics.cundall_damping));
-  const double longest = std::min(options.dynamics.step_factor * s.critical_step,
-                                  contact_critical_step(s.masses, options.material, options.dynamics.cundall_damping));
-  s.plan = plan_loading(s.loading, options.loading, loaded_block(*request.layout), interval, longest);
-  s.rows = rows_until(options.loading.until, interval);
+  const double longest = std::min(
+      options.dynamics.step_factor * s.critical_step,
+      contact_critical_step(s.masses, s.specimen.packing.radius, options.material, options.dynamics.cundall_damping));
+  s.plan = plan_loading(s.loading, options.loading, loaded_block(*request.layout), longest);
   return s;
 }
 
@@ -65,11 +72,9 @@ RunEstimate estimate_run(const RunRequest& request) {
   RunEstimate e;
   e.discs = request.clipped->size();
   e.bonds = setup.network.size();
-  const double until = static_cast<double>(setup.rows) * request.options.output.history_interval;
-  e.steps =
-      expected_steps(setup.plan, setup.loading, until, setup.loading.bulk_density / request.options.material.density);
+  e.steps = expected_steps(setup.plan, setup.loading, setup.loading.bulk_density / request.options.material.density);
   e.time_step = setup.plan.time_step;
-  e.rate = until / (static_cast<double>(e.steps) * e.time_step);
+  e.rate = request.options.loading.until / (static_cast<double>(e.steps) * e.time_step);
   return e;
 }
 

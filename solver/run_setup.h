@@ -20,12 +20,7 @@ struct RunSetup {
   LoadingEstimate loading;
   LoadingPlan plan;
   double critical_step = 0.0;
-  std::int64_t rows = 0;
 };
-
-/// History rows, `interval` apart, of a run to the engineering strain `until`: it ends with the first one there or
-/// beyond.
-std::int64_t rows_until(double until, double interval);
 
 LoadedBlock loaded_block(const geometry::PerforationLayout& layout);
 

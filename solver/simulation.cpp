@@ -145,7 +145,7 @@ void Simulation::move_cell() {
   if (driven) {
     path.step += 1.0;
     path.stress_sum += s.yy;
-    now_.yy = cell_.start.yy * (1.0 - path_strain(loading_, path));
+    now_.yy = cell_.start.yy * (1.0 - path_strain(path));
     if (path.step == path.steps) finish_segment(loading_, path);
   }
   progress_.cell = now_;

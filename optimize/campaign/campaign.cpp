@@ -1,11 +1,30 @@
 // What is here: the course of every campaign: folder, journal, loop, end. What is not: what the kinds of work ask.
 #include "optimize/campaign/campaign.h"
 
+#include <fmt/format.h>
+
+#include "io/error.h"
 #include "optimize/campaign/work_folder.h"
 
 namespace perfora::optimize {
 
 using nlohmann::json;
+
+namespace {
+
+/// Results of another version of the model do not mix with those of this one.
+void check_results_version(const json& head, const std::filesystem::path& journal) {
+  const int there = head.value("results_version", 0);
+  if (there == results_version) return;
+  throw io::InputError(
+      {journal.string(), 0, "results_version"},
+      fmt::format("this folder holds results of version {}, and this program makes those of version {} (CHANGELOG.md)",
+                  there > 0 ? std::to_string(there) : "1 or 2", results_version),
+      "such a folder can be shown, plotted and correlated, but not continued",
+      "start another folder with -o, or begin anew with --force");
+}
+
+}  // namespace
 
 Campaign::Campaign() = default;
 Campaign::~Campaign() = default;
@@ -22,6 +41,7 @@ void Campaign::open(WorkOptions options) {
   begun_ = std::chrono::steady_clock::now();
   queue_ = std::make_unique<EvaluationQueue>(std::move(options), [&](const json& event, Answers& answers) {
     if (event.value("event", "") != kind()) return read_event(event, answers);
+    check_results_version(event, journal);
     check_same(event, journal);
     known = true;
   });

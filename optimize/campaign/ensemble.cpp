@@ -78,12 +78,6 @@ class EnsembleRun final : public Campaign {
         "this ensemble was made of another design, of other settings or by a program that gives other results", "",
         "resume with the same design file and flags, or start anew with --force or in another folder");
   }
-  /// Before ensembles were campaigns, a replicate was written down without what had been asked.
-  void read_event(const json& event, Answers& answers) const override {
-    if (event.value("event", "") != "replicate") return;
-    Evaluation evaluation = results::evaluation_from_json(event.at("evaluation"));
-    answers.add(make_request(design_, evaluation.replicate).key(), std::move(evaluation));
-  }
   std::vector<Asked> pending(const Answers& answers) override {
     std::vector<Asked> asked;
     for (const Asked& one : asked_)

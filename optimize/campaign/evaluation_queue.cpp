@@ -28,11 +28,11 @@ constexpr const char* runs_folder = "runs";
 constexpr const char* histories_folder = "histories";
 
 /// The key that the request of a journal's evaluation has today: the program that wrote it may have known fewer keys
-/// of the design, or put more into a request's key. One of other results, or that is no design of this program, keeps
-/// the key it was written with, which nobody asks for.
-std::string key_of(const json& record, bool same_results, DesignTexts& designs) {
-  const std::string written = record.at("key").get<std::string>();
-  if (!same_results || !record.contains("request")) return written;
+/// of the design, or put more into a request's key. One that is no design of this program keeps the key it was written
+/// with, which nobody asks for.
+std::string key_of(const json& record, DesignTexts& designs) {
+  std::string written = record.at("key").get<std::string>();
+  if (!record.contains("request")) return written;
   try {
     return request_from_json(record.at("request"), &designs).key();
   } catch (const io::InputError&) {
@@ -56,15 +56,13 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
     if (!std::filesystem::exists(file)) return std::nullopt;
     return results::read_history_file(file);
   });
-  int version = 0;      // of the events that follow
   DesignTexts designs;  // replicates share theirs
   for (const std::string& text : journal_->events()) {
     const json record = json::parse(text);
     if (record.value("event", "") == evaluation_name) {
-      take_evaluation(key_of(record, version == results_version, designs), record);
+      take_evaluation(key_of(record, designs), record);
       continue;
     }
-    version = record.value("results_version", version);
     seen(record, answers_);
   }
 }

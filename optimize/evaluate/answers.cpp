@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "results/measured_anew.h"
-#include "solver/run_setup.h"
 
 namespace perfora::optimize {
 namespace {
@@ -33,12 +32,10 @@ bool is_answer(const Evaluation& evaluation, const Request& request) {
   if (!request.material_test.empty()) return true;  // Its key says all of it.
   const results::Summary& summary = evaluation.summary;
   const solver::SolverOptions& options = request.design->solver;
-  const double row = options.output.history_interval;
-  const double end = row * static_cast<double>(solver::rows_until(request.strain(), row));
-  // Rows stand at multiples of the interval up to rounding.
-  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > end + 0.5 * row);
-  return std::abs(summary.final_strain - end) < 0.5 * row && summary.plateau_start == options.measures.plateau_start &&
-         summary.plateau_end == options.measures.plateau_end;
+  constexpr double rounding = 1e-9;  // strains of a path are good to rounding
+  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > request.strain() + rounding);
+  return std::abs(summary.final_strain - request.strain()) < rounding &&
+         summary.plateau_start == options.measures.plateau_start && summary.plateau_end == options.measures.plateau_end;
 }
 
 const Evaluation* Answers::measured_anew(const Request& request, const std::string& key) const {
@@ -51,10 +48,8 @@ const Evaluation* Answers::measured_anew(const Request& request, const std::stri
   const std::optional<results::History> history = histories_(key);
   if (!history || history->rows() == 0) return nullptr;
   const Design& design = *request.design;
-  const double row = design.solver.output.history_interval;
   const results::MeasuringFrame frame{design.solver.measures.plateau_start, design.solver.measures.plateau_end,
-                                      row * static_cast<double>(solver::rows_until(request.strain(), row)), row,
-                                      design.layout.width * design.layout.height};
+                                      request.strain(), design.layout.width * design.layout.height};
   for (auto it = first; it != last; ++it) {
     Evaluation stored = it->second;
     if (stored.summary.final_strain != history->strain_yy.back()) continue;

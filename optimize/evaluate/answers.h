@@ -49,6 +49,6 @@ bool is_answer(const Evaluation& evaluation, const Request& request);
 
 /// The evaluation that answers `request`, whose key is `key`: a stored one, or one measured anew from it; nullptr where
 /// none does, so that it has to be evaluated.
-const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& answers);
+const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& known);
 
 }  // namespace perfora::optimize

@@ -40,6 +40,9 @@ struct Design {
 /// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [measures] [output] [seeds].
 void describe(io::Schema& schema, Design& design);
 
+/// What a design is checked for: a compression, or its packing and elastic response alone.
+enum class Purpose { run, block };
+
 /// A design with its table of keys (bound to it) and where each value came from.
 class DesignFile {
  public:
@@ -64,7 +67,7 @@ class DesignFile {
   /// Everything that can be said without placing discs: ranges across keys, horizon against the thinnest wall,
   /// overlapping holes, too many holes. Throws io::InputError; returns warnings (walls thinner than 2 r_H, a coarse
   /// packing and what it costs, ...). An imported packing is read.
-  std::vector<std::string> validate() const;
+  std::vector<std::string> validate(Purpose purpose = Purpose::run) const;
 
  private:
   std::unique_ptr<Design> design_;

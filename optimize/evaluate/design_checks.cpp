@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/jam.h"
+#include "geometry/make_packing.h"
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
 #include "io/text.h"
@@ -58,17 +60,31 @@ void check_hole_count(const Design& design, const io::Schema& schema, double hor
       "take fewer or smaller holes, or a larger cell");
 }
 
-/// <d> that the horizon is stated in: of the size law, or of the imported discs.
-double horizon_diameter(const Design& design) {
-  if (design.packing.file.empty()) return design.packing.mean_diameter;
-  return geometry::import_packing(design.packing.file, design.layout.width, design.layout.height).mean_diameter();
+/// Diameters that the rules on cells speak of: <d> that the horizon is stated in, and the largest. Of the size law, or
+/// of the imported discs.
+struct DiscSizes {
+  double mean = 0.0, largest = 0.0;
+};
+
+DiscSizes disc_sizes(const Design& design, std::vector<std::string>& warnings) {
+  if (design.packing.file.empty()) return {design.packing.mean_diameter, design.packing.maximum_diameter};
+  const geometry::Packing packing =
+      geometry::import_packing(design.packing.file, design.layout.width, design.layout.height);
+  if (packing.quality.max_overlap_ratio > geometry::overlap_limit)
+    warnings.push_back(fmt::format(
+        "{}: discs overlap by up to {} of the smaller diameter, more than the {} of packings made here: bonds start "
+        "without stress, but contacts of broken ones start squeezed",
+        design.packing.file.string(), io::quantity(packing.quality.max_overlap_ratio, io::Dimension::ratio),
+        io::quantity(geometry::overlap_limit, io::Dimension::ratio)));
+  return {packing.mean_diameter(), 2.0 * *std::max_element(packing.radius.begin(), packing.radius.end())};
 }
 
 void check_size_law(const Design& design, const io::Schema& schema) {
   if (!design.packing.file.empty()) return;
   const geometry::PackingOptions& packing = design.packing;
   const double smallest = packing.maximum_diameter / packing.size_ratio;
-  if (packing.mean_diameter <= smallest || packing.mean_diameter >= packing.maximum_diameter)
+  const bool equal_discs = packing.size_ratio == 1.0;  // their mean is the maximum: size_law_exponent says so
+  if (!equal_discs && (packing.mean_diameter <= smallest || packing.mean_diameter >= packing.maximum_diameter))
     throw io::InputError(
         schema.origin("packing.mean_diameter"),
         fmt::format("the mean diameter {} is outside the diameters of the size law, {}",
@@ -110,8 +126,12 @@ void check_cell_against_discs(const Design& design, const io::Schema& schema, do
                                      length_text(smallest_side), length_text(horizon_radius)),
                          "more than 2 x material.horizon x packing.mean_diameter",
                          "take smaller discs or a larger cell");
+}
+
+/// Where a run follows: what is left of the cell at its end.
+void check_final_height(const Design& design, const io::Schema& schema, double largest_diameter,
+                        double horizon_radius) {
   const double final_height = design.layout.height * (1.0 - design.solver.loading.until);
-  const double largest_diameter = design.packing.file.empty() ? design.packing.maximum_diameter : mean_diameter;
   const double reach = std::max(largest_diameter, horizon_radius);  // fragments keep their bonds while the cell shrinks
   if (final_height <= 2.0 * reach)
     throw io::InputError(schema.origin("loading.until"),
@@ -206,20 +226,21 @@ void warn_about_window(const Design& design, std::vector<std::string>& warnings)
                   until, design.solver.measures.plateau_end));
 }
 
-std::vector<std::string> checked(const Design& design, const io::Schema& schema) {
+std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose) {
   std::vector<std::string> warnings;
   check_size_law(design, schema);
   check_disc_count(design, schema);
-  const double mean_diameter = horizon_diameter(design);
-  const double horizon_radius = design.solver.material.horizon * mean_diameter;
+  const DiscSizes sizes = disc_sizes(design, warnings);
+  const double mean_diameter = sizes.mean, horizon_radius = design.solver.material.horizon * mean_diameter;
   check_cell_against_discs(design, schema, mean_diameter, horizon_radius);
+  if (purpose == Purpose::run) check_final_height(design, schema, sizes.largest, horizon_radius);
   check_hole_count(design, schema, horizon_radius);
   const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &schema);
   check_walls(layout, schema, horizon_radius, warnings);
   solver::validate(design.solver, schema);
   warn_about_holes(layout, design, warnings);
   warn_about_resolution(design, mean_diameter, warnings);
-  warn_about_window(design, warnings);
+  if (purpose == Purpose::run) warn_about_window(design, warnings);
   return warnings;
 }
 
@@ -238,10 +259,10 @@ io::InputError at_home(const io::InputError& error, const Design& design, const 
 
 }  // namespace
 
-std::vector<std::string> DesignFile::validate() const {
+std::vector<std::string> DesignFile::validate(Purpose purpose) const {
   try {
     std::vector<std::string> warnings = schema_->notices();
-    for (std::string& warning : checked(*design_, *schema_)) warnings.push_back(std::move(warning));
+    for (std::string& warning : checked(*design_, *schema_, purpose)) warnings.push_back(std::move(warning));
     return warnings;
   } catch (const io::InputError& error) {
     throw at_home(error, *design_, path_);

@@ -64,21 +64,18 @@ Discs periodic_discs(const Design& design) {
   return discs;
 }
 
-/// Steps in whole rows, as the solver makes them.
+/// Steps along the path that the solver takes.
 void estimate_steps(const Design& design, const geometry::PerforationLayout& layout, const Discs& discs,
                     DesignEstimate& estimate) {
   const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
   const SteppingEstimate stepping = estimate_stepping(
       design.solver, layout, {density, discs.mean_diameter, estimate.bonds_per_disc, discs.diameters});
-  const double interval = design.solver.output.history_interval;
   const solver::LoadingPlan plan = solver::plan_loading(stepping.loading, design.solver.loading,
-                                                        solver::loaded_block(layout), interval, stepping.time_step);
+                                                        solver::loaded_block(layout), stepping.time_step);
   estimate.time_step = plan.time_step;
-  constexpr double rounding = 1e-9;
-  const double until = std::ceil(design.solver.loading.until / interval - rounding) * interval;
-  estimate.steps = solver::expected_steps(plan, stepping.loading, until,
-                                          stepping.loading.bulk_density / design.solver.material.density);
-  estimate.rate = until / (static_cast<double>(estimate.steps) * estimate.time_step);
+  estimate.steps =
+      solver::expected_steps(plan, stepping.loading, stepping.loading.bulk_density / design.solver.material.density);
+  estimate.rate = design.solver.loading.until / (static_cast<double>(estimate.steps) * estimate.time_step);
 }
 
 double frame_count(const solver::SolverOptions& options) {

@@ -25,7 +25,7 @@ struct DesignEstimate {
 };
 
 /// `design` must be valid (DesignFile::validate). `threads` >= 1. Cost: milliseconds (an imported packing is read).
-DesignEstimate estimate_design(const DesignFile& design, int threads);
+DesignEstimate estimate_design(const DesignFile& file, int threads);
 
 /// Mean bonds per disc of a packing with `density` discs per area (1/m2), bond radius `radius`, outside the
 /// perforations of `layout` (walls no thinner than `radius`). Pairs of a random-looking packing at distance up to r, in

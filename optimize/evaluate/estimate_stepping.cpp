@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "geometry/packing.h"
@@ -58,9 +59,10 @@ double strength_deviation(const solver::NoiseOptions& noise) {
 }
 
 /// What the mass of a mean disc is proportional to with uniform_step, solver/mass.h.
-double mean_stiffness(const solver::MaterialOptions& material, double bonds_per_disc) {
+double mean_stiffness(const solver::MaterialOptions& material, double bonds_per_disc, double contacts_per_disc) {
+  constexpr double contact_mass_weight = 10.0;
   return 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
-         60.0 * material.normal_stiffness;
+         contact_mass_weight * contacts_per_disc * material.normal_stiffness;
 }
 
 solver::LoadingEstimate estimate_loading(const solver::SolverOptions& options,
@@ -103,11 +105,14 @@ SteppingEstimate estimate_stepping(const solver::SolverOptions& options, const g
   const solver::RunEstimate run = solver::estimate_run(request);
   const double patch_bonds = 2.0 * static_cast<double>(run.bonds) / static_cast<double>(run.discs);
 
+  const std::vector<double> contacts_each = solver::contacts_to_come(patch.radius);
+  const double contacts =
+      std::accumulate(contacts_each.begin(), contacts_each.end(), 0.0) / static_cast<double>(contacts_each.size());
   SteppingEstimate estimate;
   estimate.time_step = run.time_step;
   if (options.dynamics.mass == solver::MassScaling::uniform_step)  // total mass over total stiffness
-    estimate.time_step *= std::sqrt(mean_stiffness(options.material, patch_bonds) /
-                                    mean_stiffness(options.material, discs.bonds_per_disc));
+    estimate.time_step *= std::sqrt(mean_stiffness(options.material, patch_bonds, contacts) /
+                                    mean_stiffness(options.material, discs.bonds_per_disc, contacts));
   estimate.loading = estimate_loading(
       options, layout, discs, patch,
       solver::make_bond_network(patch, no_holes, options.material, request.options.noise, 1, discs.mean_diameter),

@@ -149,7 +149,7 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
 }
 
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading) {
-  constexpr double small_overlap = 0.05, small_kinetic_share = 0.05;
+  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05;
   const results::Summary& s = evaluation.summary;
   std::vector<std::string> warnings;
   if (s.max_overlap_in_run > small_overlap)
@@ -157,15 +157,27 @@ std::vector<std::string> validity_warnings(const Evaluation& evaluation, const s
         fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
                     "discs can bear; take the stress of the last strains as a lower bound",
                     io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
-  if (s.kinetic_ratio_at_peak > small_kinetic_share)
+  if (s.kinetic_ratio_at_peak > small_kinetic_fraction)
     warnings.push_back(fmt::format(
         "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
         io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
-  if (loading.rate == 0.0 && s.transits_before_peak < loading.transits)
+  if (s.transits_before_peak < loading.transits)
     warnings.push_back(
-        fmt::format("{:.0f} wave transits before the first peak, fewer than the {:g} requested: the block is stiffer "
-                    "or weaker than estimated; raise loading.transits",
-                    s.transits_before_peak, loading.transits));
+        loading.rate == 0.0
+            ? fmt::format("{:.3g} wave transits before the first peak, fewer than the {:g} requested: the block is "
+                          "stiffer or weaker than estimated; raise loading.transits",
+                          s.transits_before_peak, loading.transits)
+            : fmt::format("{:.3g} wave transits before the first peak, fewer than the {:g} of loading.transits: not "
+                          "quasi-static; lower loading.rate",
+                          s.transits_before_peak, loading.transits));
+  // The rate follows the stress of the last 0.5 % of strain, not the mean of the window.
+  constexpr double many_times = 2.0;
+  if (s.impact_ratio > many_times * loading.impact_ratio)
+    warnings.push_back(fmt::format(
+        "the impact stress is {} of the plateau stress, more than the {} of loading.impact_ratio: the plateau is "
+        "carried by the rate, not quasi-static; {}",
+        io::quantity(s.impact_ratio, io::Dimension::ratio), io::quantity(loading.impact_ratio, io::Dimension::ratio),
+        loading.rate == 0.0 ? "the block carries too little to be followed" : "lower loading.rate"));
   return warnings;
 }
 

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 7> beside_the_path = {
     "loading.until",   // how far: the path up to there is the same
     "output.frames",   // frames and checkpoints have no side effect;
     "output.frame_strains",
-    "output.checkpoint_interval",  // history_interval sets the segments of the loading and stays in the key
+    "output.checkpoint_interval",  // history_interval says what the curve holds, and measures are read from it
     "seeds.search",                // of the search alone
 };
 

@@ -82,10 +82,11 @@ class CalibrationRun final : public Campaign {
     return {{"design", calibration_.start->schema().to_toml()}, {"replicates", keys_.replicates}};
   }
   void check_same(const json& head, const std::filesystem::path& journal) const override {
-    const json here = {{"results_version", results_version}, {"replicates", keys_.replicates}};
-    const bool same_design = same_configuration(head.value("design", ""), *calibration_.start);
-    for (const char* key : {"results_version", "design", "replicates"})
-      if (here.contains(key) ? head.value(key, json()) != here.at(key) : !same_design)
+    const std::pair<const char*, bool> same[] = {
+        {"design", same_configuration(head.value("design", ""), *calibration_.start)},
+        {"replicates", head.value("replicates", json()) == json(keys_.replicates)}};
+    for (const auto& [key, agrees] : same)
+      if (!agrees)
         throw io::InputError({journal.string(), 0, key},
                              "the calibration of this folder began with another design or other samples", "",
                              "resume with the files it was started with, or name another folder with -o");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "io/files.h"
@@ -188,12 +189,15 @@ struct ArmHoles {
   bool same(const ArmHoles& other) const { return complete && other.complete && holes == other.holes; }
 };
 
-ArmHoles holes_of(const Study& study, const Arm& arm) {
+/// `fixed`: this variable at one end of its bounds (0: low, 1: high) at all points.
+ArmHoles holes_of(const Study& study, const Arm& arm, std::optional<std::size_t> fixed = {}, double end = 0.0) {
   ArmHoles found;
   const int dimension = static_cast<int>(study.variables.size());
   try {
     for (int k = 0; k < compared; ++k) {
-      const Design design = study.design_at(&arm, study.values_at(halton_point(k, dimension))).design();
+      std::vector<double> point = halton_point(k, dimension);
+      if (fixed) point[*fixed] = end;
+      const Design design = study.design_at(&arm, study.values_at(point)).design();
       found.holes.push_back(geometry::place_perforations(design.layout, design.seeds.effective(0).layout).perforations);
     }
   } catch (const io::InputError&) {
@@ -219,6 +223,18 @@ void drop_repeated(Study& study) {
     known.push_back(std::move(holes));
   }
   study.arms = std::move(different);
+}
+
+/// A variable that leaves the holes of an arm as they are (the stagger of a square one) makes its candidates one
+/// design.
+void warn_about_idle_variables(Study& study) {
+  for (const Arm& arm : study.arms)
+    for (std::size_t k = 0; k < study.variables.size(); ++k)
+      if (holes_of(study, arm, k, 0.0).same(holes_of(study, arm, k, 1.0)))
+        study.warnings.push_back(
+            fmt::format("variables.{} has no effect on arm {}: its holes are the same for every value; take it out, or "
+                        "choose a layout that has it",
+                        study.variables[k].key, arm.name));
 }
 
 std::vector<double> drop_impossible(Study& study) {
@@ -316,6 +332,7 @@ void make_arms(Study& study, const ArmEntries& entries, const io::Origin& alloca
                          "", "narrow them");
   drop_repeated(study);
   const auto fractions = drop_impossible(study);
+  warn_about_idle_variables(study);
   allocate(study, fractions, allocation);
 }
 

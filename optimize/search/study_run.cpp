@@ -72,8 +72,6 @@ void StudyRun::check_same(const json& head, const std::filesystem::path& journal
            : found->is_string()  ? found->get<std::string>()
                                  : found->dump();
   };
-  if (head.at("results_version") != results_version)
-    refuse("results_version", text_of(head, "results_version"), std::to_string(results_version));
   json there = json::object();
   for (const auto& [key, value] : head.at("resolved").items()) there[name_today(key)] = value;
   json here = identity().at("resolved");

@@ -33,7 +33,7 @@ solver::Simulation compression(const Block& b, double rate, int threads) {
                                                                    b.options.dynamics.cundall_damping);
   input.time_step =
       std::min(b.options.dynamics.step_factor * critical,
-               solver::contact_critical_step(b.masses, b.options.material, b.options.dynamics.cundall_damping));
+               solver::contact_critical_step(b.masses, b.packing.radius, b.options.material, b.options.dynamics.cundall_damping));
   input.mean_diameter = b.mean_diameter;
   input.threads = threads;
   return solver::Simulation(std::move(input));

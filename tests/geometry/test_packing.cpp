@@ -1,8 +1,10 @@
 // What is here: properties every packing must have, over seeds and by brute force, and measures of lattices known by
 // hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -219,6 +221,46 @@ TEST(ImportPacking, ReadsWrapsAndMeasures) {
     EXPECT_THAT(error.what(), testing::HasSubstr(csv.string() + ":3: packing.file"));
   }
   std::filesystem::remove(csv);
+}
+
+// What no packing can be: a disc twice, also as its own image across the boundary; a small disc within a large one;
+// more discs than room; a disc that is wide for the cell.
+TEST(ImportPacking, RefusesWhatIsNoPacking) {
+  const std::filesystem::path csv =
+      std::filesystem::path(testing::TempDir()) / ("no-packing-" + std::to_string(::getpid()) + ".csv");
+  std::string frames = "x,y,radius\n";
+  for (int k = 0; k < 300; ++k) frames += fmt::format("{},{},0.0004\n", 0.0001 * (k % 97), 0.0001 * (k % 89));
+  const std::pair<std::string, std::string> cases[] = {
+      {"x,y,radius\n0.001,0.001,0.0005\n0.005,0.005,0.0005\n0.001,0.001,0.0005\n",
+       ":4: packing.file: this disc and the one of line 2"},
+      {"x,y,radius\n0,0.001,0.0005\n0.01,0.001,0.0005\n", ":3: packing.file: this disc and the one of line 2"},
+      {"x,y,radius\n0.001,0.001,0.001\n0.0012,0.001,0.0005\n", ":3: packing.file: this disc and the one of line 2"},
+      {frames, "times the area of the cell"},
+      {"x,y,radius\n0.001,0.001,0.0005\n0.005,0.005,0.0018\n", ":3: packing.file: a disc of this radius"}};
+  for (const auto& [text, complaint] : cases) {
+    std::ofstream(csv) << text;
+    try {
+      import_packing(csv, 0.01, 0.01);
+      ADD_FAILURE() << complaint;
+    } catch (const io::InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(complaint));
+    }
+  }
+  std::filesystem::remove(csv);
+}
+
+// Discs of one diameter: the densest lattice has pi/sqrt(12) = 0.9069; jammed at random they reach 0.82 to 0.90, and
+// all have the diameter asked for.
+TEST(MakePacking, DiscsOfOneDiameter) {
+  PackingOptions options;
+  options.mean_diameter = options.maximum_diameter = 1e-3;
+  options.size_ratio = 1.0;
+  options.solid_fraction = 0.719;
+  const Packing packing = make_packing(options, 0.02, 0.02, 1, 1);
+  EXPECT_TRUE(packing.quality.reached) << packing.quality.reason;
+  EXPECT_NEAR(packing.quality.solid_fraction, 0.719, 1e-9);
+  const auto [smallest, largest] = std::minmax_element(packing.radius.begin(), packing.radius.end());
+  EXPECT_NEAR(*smallest, *largest, 1e-15);
 }
 
 }  // namespace

@@ -71,6 +71,30 @@ TEST(Measures, BondsBrokenInTheWindow) {
   EXPECT_TRUE(std::isnan(s.broken_in_window));
 }
 
+// 50 kPa of which damage takes a tenth, friction four tenths, dashpots none and Cundall damping half, on 2 m2; the path
+// runs at 2 1/s up to 0.3 and at 1 1/s behind it, so [0.2, 0.4] takes 0.15 s; 10 kPa a 1/s of impact stress make
+// 10 kPa x 0.2/0.15.
+TEST(Measures, WhereThePlateauGoesAndItsImpactStress) {
+  History h = sampled(
+      0.6, 1200, [](double) { return 5e4; }, [](double e) { return 5e4 * e * 2.0; });
+  for (std::size_t k = 0; k < h.rows(); ++k) {
+    const double e = h.strain_yy[k], work = 5e4 * e * 2.0;
+    h.damage[k] = 0.1 * work;
+    h.friction[k] = 0.4 * work;
+    h.cundall[k] = 0.5 * work;
+    h.time[k] = e < 0.3 ? 0.5 * e : 0.15 + (e - 0.3);
+  }
+  Summary s;
+  s.impact_stress_per_rate = 1e4;
+  measure_curve(h, 0.2, 0.4, 2.0, s);
+  EXPECT_NEAR(s.damage_stress, 5e3, 1e-6);
+  EXPECT_NEAR(s.friction_stress, 2e4, 1e-6);
+  EXPECT_NEAR(s.viscous_stress, 0.0, 1e-6);
+  EXPECT_NEAR(s.cundall_stress, 2.5e4, 1e-6);
+  EXPECT_NEAR(s.impact_stress, 1e4 * 0.2 / 0.15, 1e-6);
+  EXPECT_NEAR(s.impact_ratio, 0.2 / 0.15 / 5.0, 1e-9);
+}
+
 // Window not reached: null, not a number from less.
 TEST(Measures, ShortRunHasNoPlateau) {
   const History h = sampled(

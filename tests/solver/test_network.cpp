@@ -153,7 +153,8 @@ TEST(Masses, UniformStepKeepsTheTotal) {
   EXPECT_DOUBLE_EQ(physical.inertia[3], 0.5 * physical.mass[3] * p.radius[3] * p.radius[3]);
   EXPECT_GT(uniform.critical_step, 1.2 * physical.critical_step);
   // Of discs of nearly one size, as here, contacts allow about the same step either way.
-  EXPECT_GT(contact_critical_step(uniform, material, 0.7), 0.9 * contact_critical_step(physical, material, 0.7));
+  EXPECT_GT(contact_critical_step(uniform, p.radius, material, 0.7),
+            0.9 * contact_critical_step(physical, p.radius, material, 0.7));
   // The bound holds: the true critical step, by power iteration, is never shorter.
   EXPECT_GE(critical_step_by_power_iteration(net, uniform, material, 0.7, 400), uniform.critical_step);
   EXPECT_GE(critical_step_by_power_iteration(net, physical, material, 0.7, 400), physical.critical_step);

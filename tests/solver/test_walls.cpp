@@ -108,7 +108,8 @@ TEST(Platens, DoNotPull) {
 }
 
 // Without Cundall damping the discs' momentum changes by the walls' forces and nothing else, through breaks, friction
-// and rubble. Rounding of 1500 sums over 144 discs; in the vector kernels each of them in single precision.
+// and rubble. Rounding of 1500 sums over 144 discs; in the vector kernels each of them in single precision
+// (6e-8, and the root of 1500 of it where the errors are independent).
 TEST(Walls, ForcesAreTheChangeOfMomentum) {
   for (const KernelChoice kernel : {KernelChoice::reference, KernelChoice::openmp}) {
     const geometry::Packing packing = test::jittered_packing(12, pitch, 3);
@@ -132,7 +133,7 @@ TEST(Walls, ForcesAreTheChangeOfMomentum) {
       s.step();
     }
     EXPECT_GT(s.events().size(), 50u);
-    const double scale = (kernel == KernelChoice::openmp ? 1e-6 : 1e-11) * momentum(true)[1];
+    const double scale = (kernel == KernelChoice::openmp ? 2.5e-6 : 1e-11) * momentum(true)[1];
     EXPECT_NEAR(momentum(false)[0], impulse[0], scale);
     EXPECT_NEAR(momentum(false)[1], impulse[1], scale);
   }

@@ -90,28 +90,5 @@ TEST_F(Ensembles, FilesOfSomebodyElseAreLeftAlone) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "ensemble/replicate-007.h5"));
 }
 
-// Ensembles of version 0.1 wrote {"event":"replicate","evaluation":...} and the key of the design alone.
-TEST_F(Ensembles, JournalsOfOldAreGoneOnWith) {
-  const DesignFile file = design();
-  const auto expected = to_json(evaluate_ensemble(file, options(2)));
-  const std::vector<std::string> events = io::Journal(folder_ / "ensemble/journal.jsonl").events();
-  std::filesystem::remove(folder_ / "ensemble/journal.jsonl");
-  {
-    io::Journal journal(folder_ / "ensemble/journal.jsonl");
-    for (const std::string& text : events) {
-      const auto event = nlohmann::json::parse(text);
-      if (event.at("event") == "ensemble")
-        journal.append(nlohmann::json{{"event", "ensemble"}, {"key", event.at("key")}}.dump());
-      if (event.at("event") == "evaluation")
-        journal.append(nlohmann::json{{"event", "replicate"}, {"evaluation", event.at("evaluation")}}.dump());
-    }
-  }
-  log_.clear();
-  EnsembleOptions resuming = options(2);
-  resuming.resume = true;
-  EXPECT_EQ(to_json(evaluate_ensemble(file, resuming)), expected);
-  EXPECT_EQ(log_, "kept 0;kept 1;");
-}
-
 }  // namespace
 }  // namespace perfora::optimize

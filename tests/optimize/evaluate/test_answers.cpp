@@ -31,11 +31,9 @@ TEST(Answers, StrainAndWindowMustBeThoseAskedFor) {
   EXPECT_FALSE(is_answer(evaluation(), request(0.4, 0.2, 0.3)));
 }
 
-// A run ends with a row; rows lie 0.0005 apart by default.
-TEST(Answers, TheLastRowMayLieBeyondTheStrain) {
-  EXPECT_TRUE(is_answer(evaluation(0.4), request(0.3996)));
+TEST(Answers, TheEndIsThatAskedForUpToRounding) {
   EXPECT_TRUE(is_answer(evaluation(0.4 - 1e-12), request(0.4)));
-  EXPECT_FALSE(is_answer(evaluation(0.4), request(0.3995)));
+  EXPECT_FALSE(is_answer(evaluation(0.4), request(0.39999)));
 }
 
 TEST(Answers, AFailedRunAnswersWhateverGoesAsFar) {

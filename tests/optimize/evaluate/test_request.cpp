@@ -80,23 +80,6 @@ TEST(Request, HowFarItGoesIsNoPartOfTheKeyButOfTheFullOne) {
   EXPECT_EQ(make_request(design, 0).strain(), design.design().solver.loading.until);
 }
 
-// Names of run files in folders of earlier programs, and what the journals of their ensembles begin with: a sweep as
-// version 0.1.0 wrote it down.
-TEST(Request, TheFullKeyIsTheNameThatEarlierProgramsGave) {
-  std::ifstream journal(std::string(PERFORA_SOURCE_DIR) + "/tests/pinned/data/sweep/journal.jsonl");
-  std::string line;
-  int evaluations = 0;
-  while (std::getline(journal, line)) {
-    const auto record = nlohmann::json::parse(line.substr(line.find('{')));
-    if (!record.contains("request")) continue;
-    const Request request = request_from_json(record.at("request"));
-    EXPECT_EQ(request.full_key(), record.at("key"));
-    EXPECT_NE(request.key(), record.at("key"));
-    ++evaluations;
-  }
-  EXPECT_EQ(evaluations, 8);
-}
-
 TEST(Request, KeyDoesNotDependOnHowADesignIsWritten) {
   const DesignFile plain = DesignFile::from_toml("[layout]\ndiameter = 0.0125\nrows = 4\n", "a");
   const DesignFile units = DesignFile::from_toml("[layout]\nrows = 4\ndiameter = \"12.5 mm\"\n", "b");

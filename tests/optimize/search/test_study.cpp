@@ -96,6 +96,18 @@ TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
   EXPECT_EQ(seeds.size(), study.arms.size());
 }
 
+// A stagger moves the rows of a staggered pattern and says nothing to a square one.
+TEST_F(StudyFile, AVariableWithoutEffectIsTold) {
+  const Study study = read(
+      "[study]\ndesign = \"design.toml\"\nmaxeval = 4\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n"
+      "\"layout.stagger\" = [0.1, 0.5]\n[arms]\nfamily = [\"square\", \"staggered\"]\n");
+  std::vector<std::string> told;
+  for (const std::string& warning : study.warnings)
+    if (has(warning, "has no effect")) told.push_back(warning);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(has(told[0], "variables.layout.stagger has no effect on arm family=square")) << told[0];
+}
+
 TEST_F(StudyFile, TurnsAreArmsOfTheRotatedFamilyOnly) {
   // Two rows of two turned by 0 are the square holes, and a turn does not change the square ones.
   const Study study = read(study_text("maxeval = 9", "family = [\"square\", \"rotated\"]\nturn = [0, 1, -2]"));

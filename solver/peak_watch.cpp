@@ -1,0 +1,32 @@
+// What is here: the pieces of strain and the rule.
+#include "solver/peak_watch.h"
+
+namespace perfora::solver {
+namespace {
+
+constexpr double passed_ratio = 0.8;   // a piece below this fraction of the largest so far ends the search
+constexpr double latest_peak = 10.0;   // times the estimated peak strain
+constexpr double least_strain = 2e-4;  // pieces before that are too close to zero stress to tell a fall
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
+bool PeakWatch::ends_piece(double stress, double width, double at) {
+  work += stress * width;
+  strain += width;
+  if (strain < (1.0 - rounding) * piece) return false;
+  last_ = work / strain;
+  last_at_ = at;
+  work = strain = 0.0;
+  if (last_ > largest) {
+    largest = last_;
+    largest_at = at;
+  }
+  return true;
+}
+
+bool PeakWatch::passed(double estimated_strain) const {
+  return last_at_ > least_strain && last_ < passed_ratio * largest && largest_at < latest_peak * estimated_strain;
+}
+
+}  // namespace perfora::solver
