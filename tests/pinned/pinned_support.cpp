@@ -108,11 +108,11 @@ json pinned_json(const std::string& name) {
   return json::parse(reworded(read_text(pinned(name))));
 }
 
-WorkFolder::WorkFolder() {
+WorkFolder::WorkFolder(const std::string& data) {
   std::string pattern = fs::temp_directory_path() / "perfora-pinned.XXXXXX";
   if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder " + pattern);
   folder_ = pattern;
-  for (const char* part : {"designs", "data"})
+  for (const std::string& part : {std::string("designs"), data})
     fs::copy(source / part, folder_, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 }
 

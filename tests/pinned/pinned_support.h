@@ -26,7 +26,7 @@ struct Outcome {
 /// Designs and fixtures in a temporary folder, removed at the end.
 class WorkFolder {
  public:
-  WorkFolder();
+  explicit WorkFolder(const std::string& data = "data");
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;

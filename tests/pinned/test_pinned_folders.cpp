@@ -1,5 +1,6 @@
 // What is here: folders of work as the pinned program left them, gone on with: finished ones answer without a new
-// evaluation, stopped ones end as the finished ones did; journals of docs/data are known. What is not: single runs.
+// evaluation, stopped ones end as the finished ones did. What is not: single runs, earlier results
+// (test_pinned_version_3.cpp).
 #include <gtest/gtest.h>
 
 #include <set>
@@ -125,30 +126,6 @@ TEST(PinnedFiles, ConfirmationOfACalibrationIsTheSame) {
       const std::string name = "/tests/" + test + "/curve/" + column;
       EXPECT_EQ(now.doubles(name), then.doubles(name)) << name;
     }
-}
-
-// Sweeps of months of computing, known by their journals: not one simulation is started.
-TEST(RecordedSweeps, AreKnownByTheirJournals) {
-  const fs::path project = PERFORA_SOURCE_DIR;
-  const WorkFolder work;
-  for (const auto& [name, design] : {std::pair<std::string, std::string>{"noise", "sweep-noise"},
-                                     {"kernels", "sweep-kernels"},
-                                     {"fidelity-coarse-cell", "sweep-fidelity-cell"}}) {
-    const fs::path before = project / "docs/data" / name;
-    fs::copy(before, work / name);
-    const Outcome outcome = work.run("sweep '" + (project / "designs" / (design + ".toml")).string() + "' -o " + name +
-                                     " --resume --json --quiet");
-    ASSERT_EQ(outcome.exit_code, 0) << name << outcome.error;
-    const json expected = json::parse(read_text(before / "result.json"));
-    json actual = json::parse(outcome.output);
-    for (const char* key : {"left_out", "measures", "plateau_window"})  // which older results do not have
-      if (!expected.contains(key)) actual.erase(key);
-    EXPECT_EQ(differences(expected, actual), "") << name;
-    for (const std::string table : {"cases.csv", "runs.csv", "curves.csv"})
-      expect_same_file(work / (name + "/" + table), before / table);
-    EXPECT_EQ(finished_in(before), finished_in(work / name)) << name;
-    expect_kept_journal(before, work / name);
-  }
 }
 
 }  // namespace
