@@ -57,7 +57,7 @@ void plot_collapse(const std::vector<LabelledRun>& rows, const std::filesystem::
 /// Runs side by side: stress over strain, linear up to the highest first peak and logarithmic (smoothed), and a table
 /// of their numbers. Runs of one design have shades of one colour. Throws io::InputError for no run or
 /// an extension other than .png, .svg, .pdf.
-void plot_comparison(const std::vector<LabelledRun>& runs, const std::filesystem::path& out,
+void plot_comparison(const std::vector<LabelledRun>& rows, const std::filesystem::path& out,
                      const PlotOptions& options);
 
 /// P.h5 -> picture: the clipped block, discs by size, rims of the perforations, the size distribution and the measured

@@ -35,7 +35,8 @@ struct Drawn {
 Colour hue(std::size_t k) {
   constexpr double darker = 0.4;
   const auto& hues = palette::series();
-  return mix(hues[k % hues.size()], palette::ink, 1.0 - std::pow(1.0 - darker, static_cast<double>(k / hues.size())));
+  const std::size_t round = k / hues.size();
+  return mix(hues[k % hues.size()], palette::ink, 1.0 - std::pow(1.0 - darker, static_cast<double>(round)));
 }
 
 /// A colour a design, lighter with every further run of it; a colour a run where all are of one design.

@@ -96,7 +96,8 @@ void draw_numbers(Canvas& canvas, const results::MaterialResult& result) {
   for (const Number& entry : numbers) {
     const auto found = material->find(entry.key);
     if (found == material->end() || !found->at("mean").is_number()) continue;
-    const double x = page_margin + width * (place / rows), y = facts_top + 38.0 * (place % rows);
+    const int column = place / rows;
+    const double x = page_margin + width * column, y = facts_top + 38.0 * (place % rows);
     ++place;
     const double mean = found->at("mean").get<double>();
     const auto& deviation = found->at("standard_deviation");

@@ -129,7 +129,7 @@ std::span<const Measure> measures() {
 }
 
 const Measure* measure_called(std::string_view key) {
-  const auto found =
+  const auto* const found =
       std::find_if(std::begin(table), std::end(table), [&](const Measure& one) { return one.key == key; });
   return found == std::end(table) ? nullptr : found;
 }

@@ -32,7 +32,7 @@ std::string head_text(const json& object) {
 /// "3 min 05 s on 2 threads"
 std::string time_on_threads(const json& object) {
   const double threads = number_in(object, "threads");
-  const std::string time = io::duration(number_in(object, "seconds"));
+  std::string time = io::duration(number_in(object, "seconds"));
   if (!std::isfinite(threads)) return time;
   return fmt::format("{} on {} thread{}", time, io::count(threads), threads == 1.0 ? "" : "s");
 }

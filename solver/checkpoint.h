@@ -22,8 +22,8 @@ struct RunProgress {
   double seconds = 0.0;        ///< wall time so far
 };
 
-void write_checkpoint(const std::filesystem::path& file, const Simulation& simulation, const RunProgress& progress);
+void write_checkpoint(const std::filesystem::path& path, const Simulation& simulation, const RunProgress& progress);
 /// Throws io::InputError when the file does not belong to a simulation of this size.
-RunProgress read_checkpoint(const std::filesystem::path& file, Simulation& simulation);
+RunProgress read_checkpoint(const std::filesystem::path& path, Simulation& simulation);
 
 }  // namespace perfora::solver

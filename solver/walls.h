@@ -64,7 +64,7 @@ class Walls {
   /// Distance of disc d's centre from wall w, m, negative behind it.
   double distance(std::size_t w, std::size_t d, const DiscState& discs, const CellMatrix& cell) const;
   ContactLaw law_of(const Contact& contact, std::size_t w) const;
-  void wall_contact(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& sums);
+  void wall_contact(ForceStep& step, std::size_t w, std::size_t d, ChunkSums& chunk);
 
   std::vector<WallPlace> places_;
   std::vector<std::uint64_t> fixed_;  ///< reduced coordinates in fixed point
