@@ -143,7 +143,7 @@ Campaign read_campaign(const fs::path& folder) {
     campaign.folder = folder;
     campaign.kind = results::campaign_kind(folder);
     const auto* const files = std::find_if(std::begin(files_of_kinds), std::end(files_of_kinds),
-                                    [&](const Files& one) { return one.kind == campaign.kind; });
+                                           [&](const Files& one) { return one.kind == campaign.kind; });
     if (files == std::end(files_of_kinds))
       throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration");
     const auto record = results::stored_summary(folder);
