@@ -1,4 +1,5 @@
-// What is here: the grid of distances to the nearest disc, and what circles in the empty part cover.
+// What is here: the grid of distances to the nearest disc, and what circles in the empty part cover. What is not: the
+// area of known openings (perforation.h).
 #include "geometry/open_area.h"
 
 #include <algorithm>

@@ -8,8 +8,9 @@
 namespace perfora::results {
 
 /// History of a run: equally long columns, one entry a row; stresses in Pa (compression positive), energies in J per
-/// metre of depth. Stresses are means from half way to the row before to half way to the next one (in the last row, and
-/// everywhere in files of before results_version 4, otherwise: docs/user/formats.md); all else is at the row.
+/// metre of depth. A stress is a mean
+/// from half way to the row before to half way to the next one, and in the last row up to that row
+/// (docs/user/formats.md says what it was before results_version 4); all else is at the row.
 struct History {
   std::vector<double> strain_yy;  ///< engineering, compression positive
   std::vector<double> strain_yy_log;

@@ -11,7 +11,8 @@ namespace perfora::results {
 /// Fills plateau_stress, minimum_stress_in_window, undulation, densification and efficiency strain, only_rising_strain,
 /// recovery_strain, the peaks, stress_drop_ratio, energies and impact stress of `summary` from the history
 /// (docs/user/theory.md, "Measures"; ISO 13314 and DIN 50134 for the window and the 1.3 x plateau end). What the
-/// history does not reach is NaN. first_peak_* and impact_stress_per_rate must be set. `reference_area`: of the undeformed cell, m2.
+/// history does not reach is NaN. first_peak_* and impact_stress_per_rate must be set. `reference_area`: of the
+/// undeformed cell, m2.
 void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
                    Summary& summary);
 

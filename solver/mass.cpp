@@ -13,11 +13,6 @@
 namespace perfora::solver {
 namespace {
 
-/// How many times the contacts to come count in the masses of uniform_step. Discs that holes took bonds from are the
-/// lightest, and in contacts they limit the step: with 10 for 1 that limit is 1.2 times longer on Table 1's networks
-/// and the critical step of the bonds 0.96 times.
-constexpr double contact_mass_weight = 10.0;
-
 struct Stiffness {
   std::vector<double> translation;  // K_i, N/m
   std::vector<double> rotation;     // KR_i, N m

@@ -30,6 +30,11 @@ MassProperties make_masses(const geometry::Packing& clipped, const BondNetwork& 
 double critical_step_by_power_iteration(const BondNetwork& network, const MassProperties& masses,
                                         const MaterialOptions& material, double cundall_damping, int iterations = 60);
 
+/// How many times the contacts to come count in the masses of uniform_step. Discs that holes took bonds from are the
+/// lightest, and in contacts they limit the step: with 10 for 1 that limit is longer, and the critical step of the
+/// bonds hardly shorter.
+inline constexpr double contact_mass_weight = 10.0;
+
 /// Discs of radius `neighbour` that fit around one of `radius` in contact with it: pi/asin(r/(R + r)).
 double contacts_around(double radius, double neighbour);
 /// n_i: contacts that a disc may get in the rubble: discs of the median size around it, at least six.

@@ -1,4 +1,4 @@
-// What is here: the pieces of strain and the rule.
+// What is here: the pieces of strain and the rule. What is not: what a run does with them (run.cpp).
 #include "solver/peak_watch.h"
 
 namespace perfora::solver {

@@ -60,9 +60,8 @@ double strength_deviation(const solver::NoiseOptions& noise) {
 
 /// What the mass of a mean disc is proportional to with uniform_step, solver/mass.h.
 double mean_stiffness(const solver::MaterialOptions& material, double bonds_per_disc, double contacts_per_disc) {
-  constexpr double contact_mass_weight = 10.0;
   return 0.5 * bonds_per_disc * (material.normal_stiffness + material.tangential_stiffness) +
-         contact_mass_weight * contacts_per_disc * material.normal_stiffness;
+         solver::contact_mass_weight * contacts_per_disc * material.normal_stiffness;
 }
 
 solver::LoadingEstimate estimate_loading(const solver::SolverOptions& options,
@@ -100,7 +99,7 @@ SteppingEstimate estimate_stepping(const solver::SolverOptions& options, const g
   request.options.noise.kind = solver::NoiseKind::none;
   request.options.boundary = {};  // the patch stands for the inside of the block
   request.mean_diameter = discs.mean_diameter;
-  constexpr double slow = 1e-3;  // 1/s: so many steps a row that their rounding does not show
+  constexpr double slow = 1e-3;  // 1/s: so many steps a segment that their rounding does not show
   request.options.loading.rate = slow;
   const solver::RunEstimate run = solver::estimate_run(request);
   const double patch_bonds = 2.0 * static_cast<double>(run.bonds) / static_cast<double>(run.discs);

@@ -177,7 +177,9 @@ std::vector<std::string> validity_warnings(const Evaluation& evaluation, const s
         "the impact stress is {} of the plateau stress, more than the {} of loading.impact_ratio: the plateau is "
         "carried by the rate, not quasi-static; {}",
         io::quantity(s.impact_ratio, io::Dimension::ratio), io::quantity(loading.impact_ratio, io::Dimension::ratio),
-        loading.rate == 0.0 ? "the block carries too little to be followed" : "lower loading.rate"));
+        loading.rate > 0.0                                    ? "lower loading.rate"
+        : loading.control == solver::LoadingControl::constant ? "raise loading.transits, or let the rate be adaptive"
+                                                              : "the block carries too little to be followed"));
   return warnings;
 }
 
