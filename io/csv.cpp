@@ -13,6 +13,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/text.h"
+#include "io/units.h"
 
 namespace perfora::io {
 namespace {
@@ -87,9 +88,16 @@ class Lines {
   int number_ = 0;
 };
 
+/// A wanted column: its name in messages, and the unit that its numbers are in ("": as they are).
+struct Column {
+  std::string name, unit;
+  Dimension dimension = Dimension::none;
+};
+
 struct Layout {
   std::size_t fields = 0;              ///< values in each line
   std::vector<std::size_t> positions;  ///< of the wanted columns
+  std::vector<Column> columns;         ///< the wanted ones
   bool header = false;
 };
 
@@ -105,7 +113,8 @@ std::size_t position_of(const std::string& name, const std::vector<std::string>&
 
 Layout layout_of(const std::vector<std::string_view>& first, const std::vector<std::string>& wanted,
                  const Origin& origin) {
-  Layout layout{.fields = first.size(), .positions = {}, .header = false};
+  Layout layout{.fields = first.size(), .positions = {}, .columns = {}, .header = false};
+  for (const std::string& name : wanted) layout.columns.push_back({.name = name, .unit = {}});
   layout.header =
       std::none_of(first.begin(), first.end(), [](std::string_view field) { return number_of(field).has_value(); });
   if (!layout.header) {
@@ -119,36 +128,103 @@ Layout layout_of(const std::vector<std::string_view>& first, const std::vector<s
   return layout;
 }
 
-double value_of(std::string_view text, const std::string& column, const Origin& origin) {
-  const std::optional<double> number = number_of(text);
-  if (number && std::isfinite(*number)) return *number;
-  const std::string found = text.empty() ? "is empty" : fmt::format("{} is not a finite number", in_quotes(text));
-  throw InputError(origin, fmt::format("column {}: {}", column, found),
-                   "plain numbers in SI with a decimal point are wanted", "correct this line");
+/// A header field such as "Stress [MPa]": lower-case name, unit as written.
+struct Heading {
+  std::string name, unit;
+};
+
+Heading heading_of(std::string_view field) {
+  const std::size_t open = field.find_first_of("[(");
+  if (open == std::string_view::npos) return {lower(field), ""};
+  const std::size_t close = field.find_first_of("])", open);
+  const std::string_view unit = trimmed(field.substr(open + 1, close - open - 1));
+  return {lower(trimmed(field.substr(0, open))), std::string(unit == "-" ? "" : unit)};
 }
 
-void add_row(CsvTable& table, const Layout& layout, const std::vector<std::string>& wanted, const Lines& at,
-             const Origin& origin) {
+/// Fields of a header; between blanks a unit stands apart from its name.
+std::vector<std::string> header_fields(std::string_view line) {
+  std::vector<std::string> fields;
+  for (const std::string_view field : fields_of(line)) {
+    if (!fields.empty() && !field.empty() && (field.front() == '[' || field.front() == '('))
+      fields.back().append(field);
+    else
+      fields.emplace_back(field);
+  }
+  return fields;
+}
+
+Column column_of(const CsvQuantity& quantity, const Heading& heading, const Origin& origin) {
+  if (!heading.unit.empty() && !is_unit(heading.unit, quantity.dimension))
+    throw InputError(origin,
+                     fmt::format("column {}: {} is no unit of a {}", heading.name, in_quotes(heading.unit),
+                                 dimension_name(quantity.dimension)),
+                     "accepted are " + accepted_units(quantity.dimension), "correct the unit or leave it out for SI");
+  return {heading.name, heading.unit, quantity.dimension};
+}
+
+Layout layout_of(std::string_view line, const std::vector<CsvQuantity>& wanted, const Origin& origin) {
+  std::vector<std::string> examples;
+  for (const CsvQuantity& quantity : wanted) examples.push_back(quantity.example);
+  const std::string example = fmt::format("a first line such as \"{}\" is wanted", joined(examples));
+  if (line.find(';') != std::string_view::npos)
+    throw InputError(origin, "values are separated by semicolons", "commas, tabs or blanks are allowed",
+                     "export it with commas and decimal points");
+  const std::vector<std::string> fields = header_fields(line);
+  Layout layout{.fields = fields.size(), .positions = {}, .columns = {}, .header = true};
+  std::vector<Heading> headings;
+  std::vector<std::string> names;
+  for (const std::string& field : fields) {
+    if (number_of(field))
+      throw InputError(origin, "the first line does not name the columns", example, "add one (without #)");
+    headings.push_back(heading_of(field));
+    names.push_back(headings.back().name);
+  }
+  for (const CsvQuantity& quantity : wanted) {
+    const auto named = std::find_if(quantity.names.begin(), quantity.names.end(), [&](const std::string& name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    });
+    if (named == quantity.names.end())
+      throw InputError(origin, fmt::format("has no column {}", fmt::join(quantity.names, " or ")),
+                       "its columns are " + joined(names), example);
+    layout.positions.push_back(position_of(*named, names, origin));
+    layout.columns.push_back(column_of(quantity, headings[layout.positions.back()], origin));
+  }
+  return layout;
+}
+
+double value_of(std::string_view text, const Column& column, const Origin& origin) {
+  const std::optional<double> number = number_of(text);
+  if (number && std::isfinite(*number))
+    return column.unit.empty() ? *number
+                               : parse_quantity({fmt::format("{} {}", text, column.unit)}, column.dimension, origin);
+  const std::string found = text.empty() ? "is empty" : fmt::format("{} is not a finite number", in_quotes(text));
+  throw InputError(
+      origin, fmt::format("column {}: {}", column.name, found),
+      fmt::format("plain numbers in {} with a decimal point are wanted", column.unit.empty() ? "SI" : column.unit),
+      "correct this line");
+}
+
+void add_row(CsvTable& table, const Layout& layout, const Lines& at, const Origin& origin) {
   const std::vector<std::string_view> fields = fields_of(at.line());
-  if (fields.size() != layout.fields)
+  if (fields.size() != layout.fields) {
+    std::vector<std::string> names;
+    for (const Column& column : layout.columns) names.push_back(column.name);
     throw InputError(origin, fmt::format("has {} values", fields.size()),
                      layout.header ? fmt::format("the header names {} columns", layout.fields)
-                                   : fmt::format("the {} columns {} are wanted", layout.fields, joined(wanted)),
+                                   : fmt::format("the {} columns {} are wanted", layout.fields, joined(names)),
                      layout.header ? "correct this line" : "correct this line or name the columns in a first line");
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    table.columns[k].push_back(value_of(fields[layout.positions[k]], wanted[k], origin));
+  }
+  for (std::size_t k = 0; k < layout.columns.size(); ++k)
+    table.columns[k].push_back(value_of(fields[layout.positions[k]], layout.columns[k], origin));
   table.lines.push_back(at.number());
 }
 
-}  // namespace
+constexpr std::size_t largest_file = std::size_t{1} << 30;
 
-CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
-  constexpr std::size_t largest_file = std::size_t{1} << 30;
-  return parse_csv(read_file(path, largest_file), path.string(), wanted, maximum_rows);
-}
-
-CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
-                   std::size_t maximum_rows) {
+/// The rows of `text`; `layout_for` reads its first line.
+template <class LayoutOf>
+CsvTable rows_of(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
+                 std::size_t maximum_rows, const LayoutOf& layout_for) {
   CsvTable table;
   table.columns.resize(wanted.size());
   Lines lines(text);
@@ -156,17 +232,37 @@ CsvTable parse_csv(std::string_view text, const std::string& name, const std::ve
   while (lines.next()) {
     const Origin origin{name, lines.number(), ""};
     if (!layout) {
-      layout = layout_of(fields_of(lines.line()), wanted, origin);
+      layout = layout_for(lines.line(), origin);
       if (layout->header) continue;
     }
     if (table.rows() == maximum_rows)
       throw InputError(origin, fmt::format("is more than the {} rows allowed", maximum_rows), "", "shorten the file");
-    add_row(table, *layout, wanted, lines, origin);
+    add_row(table, *layout, lines, origin);
   }
   if (table.rows() == 0)
     throw InputError({name, 0, ""}, "holds no rows of numbers", fmt::format("columns {} are wanted", joined(wanted)),
                      "check the path");
   return table;
+}
+
+}  // namespace
+
+CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
+  return parse_csv(read_file(path, largest_file), path.string(), wanted, maximum_rows);
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
+                   std::size_t maximum_rows) {
+  return rows_of(text, name, wanted, maximum_rows, [&](std::string_view line, const Origin& origin) {
+    return layout_of(fields_of(line), wanted, origin);
+  });
+}
+
+CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvQuantity>& wanted, std::size_t maximum_rows) {
+  std::vector<std::string> names;
+  for (const CsvQuantity& quantity : wanted) names.push_back(quantity.names.front());
+  return rows_of(read_file(path, largest_file), path.string(), names, maximum_rows,
+                 [&](std::string_view line, const Origin& origin) { return layout_of(line, wanted, origin); });
 }
 
 namespace {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/schema.h"
+
 namespace perfora::io {
 
 struct CsvTable {
@@ -25,6 +27,16 @@ CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::stri
 /// The same from text; `name` stands for the file in messages.
 CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
                    std::size_t maximum_rows);
+
+/// A column that may carry a unit in its header: any of `names`, then the unit in brackets ("stress [MPa]",
+/// "stress (MPa)"); without one, or with [-] for a ratio, the numbers are SI.
+struct CsvQuantity {
+  std::vector<std::string> names;  ///< the first one stands in messages
+  Dimension dimension = Dimension::none;
+  std::string example;  ///< of a header, for messages: "stress [MPa]"
+};
+/// The same with units, numbers turned into SI. The first line that is not blank must name the columns.
+CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvQuantity>& wanted, std::size_t maximum_rows);
 
 /// A table that perfora wrote: every field as text.
 struct TextTable {

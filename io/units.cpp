@@ -2,6 +2,7 @@
 // What is not: the keys that have a dimension (each room's own options).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -221,6 +222,12 @@ std::string_view dimension_name(Dimension dimension) {
   if (dimension == Dimension::none) return "";
   const std::string_view with_article = facts(dimension).name;
   return with_article.substr(with_article.find(' ') + 1);
+}
+
+bool is_unit(std::string_view unit, Dimension dimension) {
+  const std::string plain = plain_unit(unit);
+  const std::span<const Unit> units = facts(dimension).units;
+  return std::any_of(units.begin(), units.end(), [&plain](const Unit& known) { return known.name == plain; });
 }
 
 std::string accepted_units(Dimension dimension) {
