@@ -96,6 +96,15 @@ class Section {
   /// A relative path is resolved against the folder of the file it is written in.
   Section& path(std::string name, std::filesystem::path& field, std::string help);
   Section& real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range, std::string help);
+  /// A number (kept as a list of one), a list of numbers, or one of `words` (kept in `*word`, which is empty where
+  /// numbers stand). Number k of a list has dimensions[k], those behind the last one its.
+  struct NumbersForm {
+    std::vector<Dimension> dimensions;
+    std::string* word = nullptr;  ///< must outlive the Schema; nullptr: no words
+    std::vector<std::string> words = {};
+    std::size_t fewest = 0, most = 2;  ///< numbers; an empty list takes the key back where fewest is 0
+  };
+  Section& numbers(std::string name, std::vector<double>& field, NumbersForm form, std::string help);
   /// A list of rows of `columns` numbers each, flattened row by row into `field` (size rows x columns).
   Section& real_rows(std::string name, std::vector<double>& field, int columns, Dimension dimension, std::string help);
   template <class Enum>

@@ -194,6 +194,41 @@ Section& Section::real_list(std::string name, std::vector<double>& field, Dimens
   return add(std::move(key));
 }
 
+Section& Section::numbers(std::string name, std::vector<double>& field, NumbersForm form, std::string help) {
+  assert(!form.dimensions.empty());
+  Key key = described(std::move(name), KeyType::real_list, std::move(help), form.dimensions.back());
+  key.choices = form.words;
+  std::string wanted = form.most == 1 ? "a number is wanted" : "a number or a list of numbers is wanted";
+  for (const std::string& word : form.words) wanted += fmt::format(", or \"{}\"", word);
+  key.set = [&field, form, wanted](const Value& value, const Origin& origin) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (text && std::find(form.words.begin(), form.words.end(), *text) != form.words.end()) {
+      *form.word = *text;
+      return field.clear();
+    }
+    const auto* list = std::get_if<ValueList>(&value.data);
+    std::vector<double> numbers;
+    const auto take = [&](const Value& element) {
+      const Dimension dimension = form.dimensions[std::min(numbers.size(), form.dimensions.size() - 1)];
+      numbers.push_back(parse_quantity(element, dimension, at_line_of(origin, element)));
+    };
+    if (!list && !form.words.empty() && text && nearest_name(*text, form.words) != "") refuse(value, wanted, origin);
+    if (list)
+      std::for_each(list->begin(), list->end(), take);
+    else
+      take(value);
+    if (numbers.size() < form.fewest || numbers.size() > form.most) refuse(value, wanted, origin);
+    field = std::move(numbers);
+    if (form.word) form.word->clear();
+  };
+  key.get = [&field, form] {
+    if (form.word && !form.word->empty()) return Value{*form.word};
+    if (field.size() == 1 && form.dimensions.size() == 1) return Value{field.front()};
+    return list_value(field.begin(), field.end());
+  };
+  return add(std::move(key));
+}
+
 Section& Section::real_rows(std::string name, std::vector<double>& field, int columns, Dimension dimension,
                             std::string help) {
   assert(columns > 0 && field.size() % static_cast<std::size_t>(columns) == 0);

@@ -86,12 +86,6 @@ struct BoundaryOptions {
   double wall_friction = 0.0;  ///< none: the walled block then differs from the periodic one by its edges only
 };
 
-/// [measures]
-struct MeasureOptions {
-  double plateau_start = 0.20;  ///< engineering strain
-  double plateau_end = 0.40;
-};
-
 /// [output]
 struct OutputOptions {
   FrameChoice frames = FrameChoice::few;
@@ -113,12 +107,11 @@ struct SolverOptions {
   LoadingOptions loading;
   DynamicsOptions dynamics;
   BoundaryOptions boundary;
-  MeasureOptions measures;
   OutputOptions output;
   TestOptions test;
 };
 
-/// Adds [material], [noise], [loading], [dynamics], [boundary], [measures], [output], [test]. A noise amplitude that
+/// Adds [material], [noise], [loading], [dynamics], [boundary], [output], [test]. A noise amplitude that
 /// makes a factor <= 0 is caught by validate().
 void describe(io::Schema& schema, SolverOptions& options);
 

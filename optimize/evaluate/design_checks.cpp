@@ -219,11 +219,12 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
 
 void warn_about_window(const Design& design, std::vector<std::string>& warnings) {
   const double until = design.solver.loading.until;
-  if (until >= design.solver.measures.plateau_end) return;
+  const results::MeasureOptions measures = results::with_window_of(design.target, design.measures);
+  if (measures.plateau == results::PlateauPlace::found || until >= measures.plateau_end) return;
   warnings.push_back(
       fmt::format("the run ends at strain {:.4g}, before the end of the plateau window at {:.4g}: plateau_stress "
                   "and what follows from it will be null",
-                  until, design.solver.measures.plateau_end));
+                  until, measures.plateau_end));
 }
 
 std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose) {
@@ -238,6 +239,9 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &schema);
   check_walls(layout, schema, horizon_radius, warnings);
   solver::validate(design.solver, schema);
+  results::validate(design.measures, schema);
+  results::validate(design.target, design.measures, schema);
+  for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);
   warn_about_resolution(design, mean_diameter, warnings);
   if (purpose == Purpose::run) warn_about_window(design, warnings);

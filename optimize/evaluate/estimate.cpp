@@ -70,8 +70,8 @@ void estimate_steps(const Design& design, const geometry::PerforationLayout& lay
   const double density = static_cast<double>(discs.count) / (layout.width * layout.height);
   const SteppingEstimate stepping = estimate_stepping(
       design.solver, layout, {density, discs.mean_diameter, estimate.bonds_per_disc, discs.diameters});
-  const solver::LoadingPlan plan = solver::plan_loading(stepping.loading, design.solver.loading,
-                                                        solver::loaded_block(layout), stepping.time_step);
+  const solver::LoadingPlan plan =
+      solver::plan_loading(stepping.loading, design.solver.loading, solver::loaded_block(layout), stepping.time_step);
   estimate.time_step = plan.time_step;
   estimate.steps =
       solver::expected_steps(plan, stepping.loading, stepping.loading.bulk_density / design.solver.material.density);
