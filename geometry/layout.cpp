@@ -1,5 +1,5 @@
-// What is here: the keys of [cell] and [layout], the regular and listed families, and what is refused.
-// What is not: lattices (layout_lattice.cpp), random placement (layout_random.cpp), wall thickness (wall.cpp).
+// What is here: the keys of [cell] and [layout], the families, and what is refused.
+// What is not: lattices (layout_lattice.cpp), lists (layout_list.cpp), random placement (layout_random.cpp), wall thickness (wall.cpp).
 #include "geometry/layout.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 #include <string>
 
 #include "geometry/layout_lattice.h"
+#include "geometry/layout_list.h"
 #include "geometry/layout_random.h"
 #include "geometry/random.h"
 #include "geometry/wall.h"
-#include "io/csv.h"
 #include "io/error.h"
 #include "io/text.h"
 
@@ -86,7 +86,8 @@ class Layouter {
         layout.perforations = at_random().perforations;
         break;
       case LayoutFamily::list:
-        place_list(layout);
+        layout.perforations =
+            listed_holes(options_, static_cast<std::size_t>(maximum_holes), origin_of(schema_, "layout.holes"));
         break;
     }
     return layout;
@@ -113,6 +114,7 @@ class Layouter {
                   "a list layout needs either layout.holes or layout.file", "exactly one of the two",
                   "give rows of x, y, diameter or the name of a CSV file");
     refuse_unless(options_.holes.size() % 3 == 0, "layout.holes", "a hole has three numbers", "rows of x, y, diameter");
+    refuse_count(static_cast<std::int64_t>(options_.holes.size() / 3), "layout.holes");
   }
 
   void check_lattice() const {
@@ -150,33 +152,6 @@ class Layouter {
       holes[k].y = wrap(holes[k].y, options_.height);
     }
     return holes;
-  }
-
-  void place_list(PerforationLayout& layout) const {
-    if (options_.file.empty()) {
-      refuse_count(static_cast<std::int64_t>(options_.holes.size() / 3), "layout.holes");
-      for (std::size_t k = 0; k + 2 < options_.holes.size(); k += 3)
-        add_listed(layout, options_.holes[k], options_.holes[k + 1], options_.holes[k + 2],
-                   origin_of(schema_, "layout.holes"));
-      return;
-    }
-    const io::CsvTable table =
-        io::read_csv(options_.file, {"x", "y", "diameter"}, static_cast<std::size_t>(maximum_holes));
-    for (std::size_t k = 0; k < table.rows(); ++k)
-      add_listed(layout, table.columns[0][k], table.columns[1][k], table.columns[2][k],
-                 {options_.file.string(), table.lines[k], "layout.file"});
-  }
-
-  static void add_listed(PerforationLayout& layout, double x, double y, double diameter, const io::Origin& origin) {
-    const std::string name = "hole " + std::to_string(layout.perforations.size() + 1);
-    if (!(std::isfinite(diameter) && diameter > 0.0))
-      throw io::InputError(origin, name + " has no size", "a positive diameter in metres",
-                           "correct or leave out this hole");
-    if (!(x >= 0.0 && x <= layout.width && y >= 0.0 && y <= layout.height))
-      throw io::InputError(origin, name + " at (" + length_text(x) + ", " + length_text(y) + ") lies outside the cell",
-                           "0 to " + length_text(layout.width) + " in x, 0 to " + length_text(layout.height) + " in y",
-                           "give centres in metres within the cell");
-    layout.perforations.push_back({wrap(x, layout.width), wrap(y, layout.height), Circle{diameter}});
   }
 
   const LayoutOptions& options_;
