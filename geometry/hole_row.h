@@ -11,8 +11,10 @@
 namespace perfora::geometry {
 
 struct HoleRow {
-  std::string shape;            ///< "circle"
-  std::vector<double> numbers;  ///< x, y of the centre, then what the shape knows (circle: its diameter), m
+  std::string shape;  ///< "circle" or "polygon"
+  /// x, y of the centre, then what the shape knows, m. Circle: its diameter. Polygon: the radius round its core, then
+  /// x, y of the corners of the core relative to the centre (two of a slot).
+  std::vector<double> numbers;
 };
 
 HoleRow hole_row(const Perforation& hole);

@@ -16,10 +16,13 @@ double Perforation::deepest_dip(double length) const {
   return std::visit([&](const auto& s) { return s.deepest_dip(length); }, shape);
 }
 
-double Perforation::signed_gap(const Perforation& other, double shift_x, double shift_y) const {
+Gap Perforation::gap_to(const Perforation& other, double shift_x, double shift_y) const {
   const Point here{x, y}, there{other.x + shift_x, other.y + shift_y};
-  return std::visit([&](const auto& a, const auto& b) { return geometry::signed_gap(a, here, b, there); }, shape,
-                    other.shape);
+  return std::visit([&](const auto& a, const auto& b) { return gap_between(a, here, b, there); }, shape, other.shape);
+}
+
+double Perforation::signed_gap(const Perforation& other, double shift_x, double shift_y) const {
+  return gap_to(other, shift_x, shift_y).length;
 }
 
 double Perforation::gap_to_image(double shift_x, double shift_y) const {

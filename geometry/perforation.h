@@ -26,8 +26,11 @@ struct Perforation {
   double segment_depth(double ax, double ay, double bx, double by) const;
   /// No segment of at most `length` with both ends outside dips deeper into the hole than this.
   double deepest_dip(double length) const;
-  /// Gap to `other` moved by (shift_x, shift_y); negative when they overlap, minus the smaller hole's smallest extent
-  /// at least when nested.
+  /// Gap to `other` moved by (shift_x, shift_y), its ends on the rims. Negative when they overlap: minus the least move
+  /// that takes them apart (of holes that are not convex: of those of their convex pieces that overlap most), so minus
+  /// the smaller hole's smallest extent at least when nested.
+  Gap gap_to(const Perforation& other, double shift_x, double shift_y) const;
+  /// Its length.
   double signed_gap(const Perforation& other, double shift_x, double shift_y) const;
   /// The gap to this hole itself moved by (shift_x, shift_y).
   double gap_to_image(double shift_x, double shift_y) const;

@@ -1,4 +1,5 @@
-// What is here: plane geometry of each shape. What is not: periodic images (perforation.cpp, wall.cpp).
+// What is here: plane geometry of the circle, and gaps between shapes. What is not: cores with a radius
+// (rounded_polygon.cpp), periodic images (perforation.cpp, wall.cpp).
 #include "geometry/shapes.h"
 
 #include <algorithm>
@@ -78,9 +79,37 @@ Circle Circle::clear_of(std::span<const NearDisc> discs, double reach) const {
   return {2.0 * std::max(0.0, radius)};
 }
 
-double signed_gap(const Circle& first, Point first_centre, const Circle& second, Point second_centre) {
-  return std::hypot(second_centre.x - first_centre.x, second_centre.y - first_centre.y) -
-         0.5 * (first.diameter + second.diameter);
+namespace {
+
+/// A circle is a point and its radius.
+Gap gap_of_circle(const Circle& circle, Point centre, const RoundedPolygon& other, Point other_centre, bool first) {
+  static const std::vector<Point> point{{0.0, 0.0}};
+  static const std::vector<std::vector<Point>> no_pieces;
+  const PlacedCore round{centre, &point, &no_pieces, 0.5 * circle.diameter}, polygon = other.placed(other_centre);
+  return first ? gap_between(round, polygon) : gap_between(polygon, round);
+}
+
+}  // namespace
+
+Gap gap_between(const Circle& first, Point first_centre, const Circle& second, Point second_centre) {
+  const double dx = second_centre.x - first_centre.x, dy = second_centre.y - first_centre.y;
+  const double apart = std::hypot(dx, dy);
+  const double nx = apart > 0.0 ? dx / apart : 1.0, ny = apart > 0.0 ? dy / apart : 0.0;
+  return {apart - 0.5 * (first.diameter + second.diameter),
+          {first_centre.x + 0.5 * first.diameter * nx, first_centre.y + 0.5 * first.diameter * ny},
+          {second_centre.x - 0.5 * second.diameter * nx, second_centre.y - 0.5 * second.diameter * ny}};
+}
+
+Gap gap_between(const Circle& first, Point first_centre, const RoundedPolygon& second, Point second_centre) {
+  return gap_of_circle(first, first_centre, second, second_centre, true);
+}
+
+Gap gap_between(const RoundedPolygon& first, Point first_centre, const Circle& second, Point second_centre) {
+  return gap_of_circle(second, second_centre, first, first_centre, false);
+}
+
+Gap gap_between(const RoundedPolygon& first, Point first_centre, const RoundedPolygon& second, Point second_centre) {
+  return gap_between(first.placed(first_centre), second.placed(second_centre));
 }
 
 }  // namespace perfora::geometry

@@ -1,5 +1,5 @@
-// What is here: the shapes of a perforation and the questions a shape answers. A new shape is one more struct here, one
-// more entry in Shape, its definitions in shapes.cpp, its reader and writer (docs/developer/how-to-add-a-shape.md).
+// What is here: the shapes of a perforation and the questions a shape answers. Most new shapes are one more core in
+// make_shape.cpp; one that is no core plus a radius is one more entry of Shape (docs/developer/how-to-add-a-shape.md).
 // What is not: a hole at its place, which the other rooms ask (perforation.h).
 #pragma once
 
@@ -7,34 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/core_gap.h"
+#include "geometry/plane.h"
+#include "geometry/rounded_polygon.h"
+
 namespace perfora::geometry {
 
-struct Point {
-  double x = 0.0, y = 0.0;  ///< m
-
-  bool operator==(const Point&) const = default;
-};
-
-/// Smallest box along the axes, m.
-struct Bounds {
-  double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
-};
-
-/// A piece of an outline: the arc about `centre` from angle `from` anticlockwise to `to` >= from (rad). A radius of 0
-/// is a corner.
-struct Arc {
-  Point centre;
-  double radius = 0.0;  ///< m
-  double from = 0.0, to = 0.0;
-};
-
-/// A disc near a hole, relative to the centre of the hole, m.
-struct NearDisc {
-  Point centre;
-  double radius = 0.0;
-};
-
-/// Every shape has these members and a signed_gap with itself and with every other shape. Shapes know their size, not
+/// Every shape has these members and a gap_between with itself and with every other shape. Shapes know their size, not
 /// their place: `centre` says where. Lengths in m. What each member answers is told once, at Perforation.
 struct Circle {
   double diameter = 0.0;
@@ -55,8 +34,12 @@ struct Circle {
   std::vector<Arc> outline(Point centre, double tolerance) const;
   Circle clear_of(std::span<const NearDisc> discs, double reach) const;
 };
-double signed_gap(const Circle& first, Point first_centre, const Circle& second, Point second_centre);
 
-using Shape = std::variant<Circle>;
+using Shape = std::variant<Circle, RoundedPolygon>;
+
+Gap gap_between(const Circle& first, Point first_centre, const Circle& second, Point second_centre);
+Gap gap_between(const Circle& first, Point first_centre, const RoundedPolygon& second, Point second_centre);
+Gap gap_between(const RoundedPolygon& first, Point first_centre, const Circle& second, Point second_centre);
+Gap gap_between(const RoundedPolygon& first, Point first_centre, const RoundedPolygon& second, Point second_centre);
 
 }  // namespace perfora::geometry

@@ -32,6 +32,9 @@ ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {
     if (gap < wall.thickness) wall = {gap, static_cast<int>(first), static_cast<int>(second)};
   };
   const auto nearest = [](double difference, double period) { return -period * std::round(difference / period); };
+  // Of two circles the image with the nearest centre is nearest. Long holes can be nearer with the next but one: with
+  // extents below the periods none beyond those can.
+  const int around = all_circles(layout) ? 0 : 2;
   for (std::size_t i = 0; i < layout.perforations.size(); ++i) {
     const Perforation& a = layout.perforations[i];
     for (const Point& image : {Point{layout.width, 0.0}, Point{0.0, layout.height}, Point{layout.width, layout.height},
@@ -39,7 +42,10 @@ ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {
       offer(a.gap_to_image(image.x, image.y), i, i);
     for (std::size_t j = i + 1; j < layout.perforations.size(); ++j) {
       const Perforation& b = layout.perforations[j];
-      offer(a.signed_gap(b, nearest(b.x - a.x, layout.width), nearest(b.y - a.y, layout.height)), i, j);
+      const double near_x = nearest(b.x - a.x, layout.width), near_y = nearest(b.y - a.y, layout.height);
+      for (int column = -around; column <= around; ++column)
+        for (int row = -around; row <= around; ++row)
+          offer(a.signed_gap(b, near_x + column * layout.width, near_y + row * layout.height), i, j);
     }
   }
   return wall;

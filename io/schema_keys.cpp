@@ -176,11 +176,21 @@ Section& Section::path(std::string name, std::filesystem::path& field, std::stri
 }
 
 Section& Section::real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range,
-                            std::string help) {
+                            std::string help, OneNumber one) {
   Key key = described(std::move(name), KeyType::real_list, std::move(help), dimension, range);
-  key.set = [&field, dimension, range](const Value& value, const Origin& origin) {
+  key.set = [&field, dimension, range, one](const Value& value, const Origin& origin) {
     const auto* list = std::get_if<ValueList>(&value.data);
-    if (list == nullptr) refuse(value, "a list of numbers in square brackets is wanted", origin);
+    if (list == nullptr && one == OneNumber::taken && !std::holds_alternative<bool>(value.data)) {
+      const double number = parse_quantity(value, dimension, origin);
+      check_range(number, range, dimension, origin);
+      field = {number};
+      return;
+    }
+    if (list == nullptr)
+      refuse(value,
+             one == OneNumber::taken ? "a number or a list of numbers in square brackets is wanted"
+                                     : "a list of numbers in square brackets is wanted",
+             origin);
     std::vector<double> numbers;
     for (const Value& element : *list) {
       const Origin here = at_line_of(origin, element);

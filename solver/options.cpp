@@ -120,7 +120,11 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("platen_friction", boundary.platen_friction, Dimension::ratio, Range::between(0.0, 10.0),
             "mu of a disc on a platen.")
       .real("wall_friction", boundary.wall_friction, Dimension::ratio, Range::between(0.0, 10.0),
-            "mu of a disc on a side wall.");
+            "mu of a disc on a side wall.")
+      .real(
+          "crushed_bottom", boundary.crushed_bottom, Dimension::length, Range::non_negative(),
+          "Height of a band at the bottom that is crushed already: its bonds are not made, and not counted as broken.")
+      .real("crushed_top", boundary.crushed_top, Dimension::length, Range::non_negative(), "The same at the top.");
   OutputOptions& output = options.output;
   schema.section("output", "What a run file holds.")
       .choice("frames", output.frames,

@@ -84,6 +84,7 @@ struct BoundaryOptions {
   Sides sides = Sides::periodic;
   double platen_friction = 0.4;
   double wall_friction = 0.0;  ///< none: the walled block then differs from the periodic one by its edges only
+  double crushed_bottom = 0.0, crushed_top = 0.0;  ///< heights of the ends that are rubble from the start, m
 };
 
 /// [output]

