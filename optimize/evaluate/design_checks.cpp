@@ -202,6 +202,29 @@ void warn_about_holes(const geometry::PerforationLayout& layout, const Design& d
                     warned_length(smallest), warned_length(design.packing.maximum_diameter)));
 }
 
+/// Keys of [layout] that somebody set and that the holes do not depend on: of another family, or without the key that
+/// switches them on.
+void warn_about_idle_keys(const Design& design, const io::Schema& schema, std::vector<std::string>& warnings) {
+  const auto holes_of = [&](const geometry::LayoutOptions& layout) {
+    return geometry::place_perforations(layout, design.seeds.effective(0).layout).perforations;
+  };
+  std::vector<geometry::Perforation> own;
+  for (const io::Key& key : schema.keys()) {
+    const std::string name = key.full_name();
+    if (key.section != "layout" || name == "layout.minimum_wall" || key.at_default()) continue;
+    if (schema.origin(name).file == "default") continue;
+    if (own.empty()) own = holes_of(design.layout);
+    DesignFile without(design);
+    try {
+      without.schema().set(name, DesignFile().schema().at(name).get(), {});
+      if (holes_of(without.design().layout) != own) continue;
+    } catch (const io::InputError&) {
+      continue;  // it takes part in saying what a hole is
+    }
+    warnings.push_back(fmt::format("{} has no effect: the holes are the same without it", name));
+  }
+}
+
 void warn_about_resolution(const Design& design, double mean_diameter, std::vector<std::string>& warnings) {
   const solver::MaterialOptions& material = design.solver.material;
   const double ratio = mean_diameter / material.reference_mean_diameter;
@@ -266,6 +289,7 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   results::validate(design.target, design.measures, schema);
   for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);
+  warn_about_idle_keys(design, schema, warnings);
   warn_about_resolution(design, mean_diameter, warnings);
   if (purpose == Purpose::run) warn_about_window(design, warnings);
   return warnings;

@@ -75,6 +75,17 @@ TEST(DesignChecks, ThinWallsNameTheDiscsThatWouldDo) {
   EXPECT_THAT(refusal("[layout]\ndiameter = \"24 mm\"\n"), HasSubstr("a mean diameter of at most 333 um"));
 }
 
+TEST(DesignChecks, KeysOfOtherFamiliesAreTold) {
+  EXPECT_THAT(warnings_of("[layout]\nrow_diameter = \"15 mm\"\n"), HasSubstr("layout.row_diameter has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nweak_factor = 1.1\n"), HasSubstr("layout.weak_factor has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nangle = \"20 deg\"\n"), HasSubstr("layout.angle has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nfamily = \"rows\"\nrow_diameter = \"15 mm\"\ndiameter = \"16 mm\"\n"),
+              HasSubstr("layout.diameter has no effect"));
+  EXPECT_EQ(
+      warnings_of("[layout]\nfamily = \"rows\"\nrow_diameter = \"15 mm\"\nstagger = 0.25\nminimum_wall = \"4 mm\"\n"),
+      "");
+}
+
 TEST(DesignChecks, CrushedEndsLeaveSomethingOfTheBlock) {
   EXPECT_EQ(refusal("[boundary]\ncrushed_bottom = \"100 mm\"\n"), "");
   EXPECT_THAT(refusal("[boundary]\ncrushed_bottom = \"100 mm\"\ncrushed_top = \"50 mm\"\n"),

@@ -235,6 +235,23 @@ TEST_F(StudyFile, MeasuresConstraintsOnTheLayout) {
   EXPECT_NEAR(violation(g), std::max(0.0, g[2]), 1e-15);
 }
 
+// 4 x 4 slots, 10 mm long in the bottom row and 8 mm in the top row, at a pitch of 12.5 mm: the thinnest wall stands
+// beside the longest.
+TEST_F(StudyFile, MeasuresConstraintsOnSlots) {
+  folder.file(
+      "slots.toml",
+      "[cell]\nwidth = \"50 mm\"\nheight = \"50 mm\"\n[layout]\nfamily = \"rows\"\nshape = \"slot\"\nbreadth = "
+      "\"2 mm\"\nrow_diameter = [\"9 mm\", \"8 mm\"]\nrows = 4\ncolumns = 4\n[packing]\nmean_diameter = \"0.5044 "
+      "mm\"\n");
+  const Study study = read(
+      "[study]\ndesign = \"slots.toml\"\nmaxeval = 4\nuntil = 0.45\n[target]\nplateau_stress = 2e5\n"
+      "[constraints]\nthinnest_wall = \"2 mm\"\n[variables]\n\"row_diameter[0]\" = [\"8 mm\", \"12 mm\"]\n");
+  const LayoutMeasure measure = measure_layout(study.design_at(&study.arms[0], std::vector{0.010}));
+  EXPECT_NEAR(measure.thinnest_wall, 0.0025, 1e-12);
+  // Lengths beside the half circles: 8, 22/3, 20/3 and 6 mm, 28 mm a column.
+  EXPECT_NEAR(measure.porosity, 4.0 * (0.002 * 0.028 + 4.0 * std::numbers::pi * 0.001 * 0.001) / 0.0025, 1e-12);
+}
+
 TEST_F(StudyFile, TheHorizonIsAConstraintByItself) {
   // r_H = 3 x 0.5044 mm; a wall of 1 mm is (1.5132 - 1)/1.5132 too thin.
   const Study study = read(study_text("maxeval = 12"));
