@@ -23,12 +23,12 @@ HoleRow hole_row(const Perforation& hole) {
 std::optional<Perforation> hole_of(const HoleRow& row) {
   if (row.shape == "circle" && row.numbers.size() == 3)
     return Perforation{row.numbers[0], row.numbers[1], Circle{row.numbers[2]}};
-  constexpr std::size_t head = 3, two_corners = 4;
-  if (row.shape == "polygon" && row.numbers.size() >= head + two_corners && row.numbers.size() % 2 == head % 2) {
+  constexpr std::size_t head = 3;
+  if (row.shape == "polygon" && row.numbers.size() >= head && row.numbers.size() % 2 == head % 2) {
     std::vector<Point> corners;
     for (std::size_t k = head; k < row.numbers.size(); k += 2) corners.push_back({row.numbers[k], row.numbers[k + 1]});
-    return Perforation{row.numbers[0], row.numbers[1],
-                       RoundedPolygon{std::make_shared<const PolygonCore>(std::move(corners)), row.numbers[2]}};
+    if (auto polygon = polygon_of(std::move(corners), row.numbers[2]))
+      return Perforation{row.numbers[0], row.numbers[1], std::move(*polygon)};
   }
   return std::nullopt;
 }

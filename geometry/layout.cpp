@@ -88,8 +88,9 @@ class Layouter {
         layout.perforations = at_random().perforations;
         break;
       case LayoutFamily::list:
-        layout.perforations =
-            listed_holes(options_, static_cast<std::size_t>(maximum_holes), origin_of(schema_, "layout.holes"));
+        layout.perforations = listed_holes(
+            options_, [](double diameter) { return Circle{diameter}; }, static_cast<std::size_t>(maximum_holes),
+            origin_of(schema_, "layout.holes"));
         break;
     }
     return layout;
@@ -306,11 +307,12 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   }
   for (std::size_t k = 0; k < layout.perforations.size(); ++k) {
     const Bounds box = layout.perforations[k].bounds();
-    layouter.refuse_unless(
-        box.right - box.left < options.width && box.top - box.bottom < options.height, size_key(options),
-        "hole " + std::to_string(k + 1) + " of " + length_text(layout.perforations[k].largest_extent()) +
-            " is larger than the cell",
-        "less than " + length_text(side), std::string(smaller_holes(options.family)) + " or enlarge the cell");
+    const bool too_wide = box.width() >= options.width;
+    layouter.refuse_unless(!too_wide && box.height() < options.height, size_key(options),
+                           "hole " + std::to_string(k + 1) + " of " +
+                               length_text(layout.perforations[k].largest_extent()) + " is larger than the cell",
+                           "less than " + length_text(too_wide ? options.width : options.height),
+                           std::string(smaller_holes(options.family)) + " or enlarge the cell");
   }
   const ThinnestWall wall = thinnest_wall(layout);
   const std::string pair = wall.first == wall.second

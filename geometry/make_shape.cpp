@@ -142,10 +142,25 @@ std::optional<ShapeFault> fault_of_outline(const ShapeSize& size) {
   if (!fits_corners(anticlockwise(corners), size.corner_radius))
     return ShapeFault{Where::corner_radius, "the edges of the outline are too short for corners of this radius",
                       "a smaller radius"};
+  // Arcs in a corner that turns inwards leave the outline: into another part of it where that is near.
+  if (size.corner_radius > 0.0 &&
+      !is_simple(round_corners(anticlockwise(corners), size.corner_radius, curve_tolerance).corners))
+    return ShapeFault{Where::corner_radius, "with corners of this radius the outline would cross itself",
+                      "a smaller radius"};
   return std::nullopt;
 }
 
 }  // namespace
+
+std::optional<ShapeKind> shape_kind_called(std::string_view name) {
+  constexpr std::pair<std::string_view, ShapeKind> names[] = {
+      {"circle", ShapeKind::circle},   {"ellipse", ShapeKind::ellipse},   {"slot", ShapeKind::slot},
+      {"diamond", ShapeKind::diamond}, {"triangle", ShapeKind::triangle}, {"teardrop", ShapeKind::teardrop},
+      {"polygon", ShapeKind::polygon}};
+  for (const auto& [one, kind] : names)
+    if (one == name) return kind;
+  return std::nullopt;
+}
 
 std::optional<ShapeFault> fault_of(ShapeKind kind, const ShapeSize& size) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/shapes.h"
@@ -13,6 +14,9 @@ namespace perfora::geometry {
 /// A slot is a rectangle with half-circles at both ends; a triangle is isosceles with its apex, a teardrop has its tip
 /// along the axis; a polygon is an outline of one's own.
 enum class ShapeKind { circle, ellipse, slot, diamond, triangle, teardrop, polygon };
+
+/// "circle", "ellipse", ...; nothing for another name.
+std::optional<ShapeKind> shape_kind_called(std::string_view name);
 
 /// Lengths in m. The centre of a shape is the middle of its extents along and across its axis.
 struct ShapeSize {

@@ -94,17 +94,67 @@ void write_packing(io::Hdf5Writer& file, const std::string& group, const Packing
   file.attribute(group, "reason", quality.reason);
 }
 
+namespace {
+
+/// The cores of holes that are no circles, one after another.
+struct Cores {
+  std::vector<double> radius, corners;  ///< of circles radius 0; x, y of each corner relative to the centre
+  std::vector<std::int64_t> first;      ///< of each hole its first corner, and their number at the end
+};
+
+void write_cores(io::Hdf5Writer& file, const std::string& group, const PerforationLayout& layout) {
+  Cores cores;
+  for (const Perforation& hole : layout.perforations) {
+    const auto* polygon = std::get_if<RoundedPolygon>(&hole.shape);
+    cores.first.push_back(static_cast<std::int64_t>(cores.corners.size() / 2));
+    cores.radius.push_back(polygon ? polygon->radius : 0.0);
+    if (!polygon) continue;
+    for (const Point& corner : polygon->core->corners())
+      cores.corners.insert(cores.corners.end(), {corner.x, corner.y});
+  }
+  cores.first.push_back(static_cast<std::int64_t>(cores.corners.size() / 2));
+  if (cores.corners.empty()) return;
+  file.dataset(group + "/radius", std::span<const double>(cores.radius), 0, "m");
+  file.dataset(group + "/first_corner", std::span<const std::int64_t>(cores.first));
+  file.dataset(group + "/corners", std::span<const double>(cores.corners), 2, "m");
+}
+
+/// The holes that have corners take the shape that these say.
+void read_cores(const io::Hdf5Reader& file, const std::string& group, PerforationLayout& layout) {
+  if (!file.has(group + "/corners")) return;
+  const std::vector<double> radius = file.doubles(group + "/radius"), first = file.doubles(group + "/first_corner"),
+                            corners = file.doubles(group + "/corners");
+  const std::size_t holes = layout.perforations.size();
+  bool good = radius.size() == holes && first.size() == holes + 1 && corners.size() % 2 == 0;
+  for (std::size_t k = 0; good && k < holes; ++k) {
+    good = first[k] >= 0.0 && first[k] <= first[k + 1] && first[k + 1] <= static_cast<double>(corners.size() / 2);
+    if (!good || first[k] == first[k + 1]) continue;
+    std::vector<Point> core;
+    for (auto c = static_cast<std::size_t>(first[k]); c < static_cast<std::size_t>(first[k + 1]); ++c)
+      core.push_back({corners[2 * c], corners[2 * c + 1]});
+    auto polygon = polygon_of(std::move(core), radius[k]);
+    good = polygon.has_value();
+    if (good) layout.perforations[k].shape = std::move(*polygon);
+  }
+  if (!good)
+    throw io::InputError({file.path().string(), 0, group}, "the corners of the holes are no outlines",
+                         "simple polygons, one after another", "make the file again");
+}
+
+}  // namespace
+
 void write_layout(io::Hdf5Writer& file, const std::string& group, const PerforationLayout& layout) {
   std::vector<double> x, y, diameter;
   for (const Perforation& hole : layout.perforations) {
     x.push_back(hole.x);
     y.push_back(hole.y);
-    diameter.push_back(std::get<Circle>(hole.shape).diameter);
+    diameter.push_back(hole.largest_extent());
   }
   file.group(group);
   file.dataset(group + "/x", std::span<const double>(x), 0, "m");
   file.dataset(group + "/y", std::span<const double>(y), 0, "m");
   file.dataset(group + "/diameter", std::span<const double>(diameter), 0, "m");
+  write_cores(file, group, layout);
   file.attribute(group, "width", layout.width);
   file.attribute(group, "height", layout.height);
 }
@@ -128,6 +178,7 @@ PerforationLayout read_layout(const io::Hdf5Reader& file, const std::string& gro
                             diameter = file.doubles(group + "/diameter");
   check_arrays(file, group, "diameter", layout.width, layout.height, x, y, diameter);
   for (std::size_t k = 0; k < x.size(); ++k) layout.perforations.push_back({x[k], y[k], Circle{diameter[k]}});
+  read_cores(file, group, layout);
   return layout;
 }
 

@@ -77,6 +77,7 @@ struct ThinnestWall {
   double thickness = 0.0;
   int first = -1;
   int second = -1;
+  Point from{}, to{};  ///< its ends on the rims of the first hole and of the nearest image of the second, m
 };
 
 }  // namespace perfora::geometry

@@ -3,6 +3,8 @@
 
 #include <numbers>
 
+#include "geometry/polygon_checks.h"
+
 namespace perfora::geometry {
 namespace {
 
@@ -106,6 +108,17 @@ RoundedPolygon RoundedPolygon::clear_of(std::span<const NearDisc> discs, double 
   double clear = reach - core->reach();
   for (const NearDisc& disc : discs) clear = std::min(clear, -core->depth(disc.centre) - disc.radius);
   return {core, std::max(clear, -0.5 * core->smallest_extent())};
+}
+
+std::optional<RoundedPolygon> polygon_of(std::vector<Point> corners, double radius) {
+  for (const Point& p : corners)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
+  if (corners.size() < 2 || !(radius >= 0.0) || !std::isfinite(radius)) return std::nullopt;
+  if (corners.size() == 2 && (corners[0] == corners[1] || radius == 0.0)) return std::nullopt;
+  if (corners.size() > 2 && !(is_simple(corners) && signed_area(corners) > 0.0)) return std::nullopt;
+  RoundedPolygon polygon{std::make_shared<const PolygonCore>(std::move(corners)), radius};
+  if (radius > 0.0 && !polygon.core->convex()) return std::nullopt;
+  return polygon;
 }
 
 PlacedCore RoundedPolygon::placed(Point centre) const {

@@ -1,5 +1,6 @@
-// What is here: the thinnest wall by its definition, and the choice between that and the Apollonius graph.
-// What is not: CGAL (wall_apollonius.cpp), walls between clipped discs (wall_discretised.cpp).
+// What is here: the thinnest wall by its definition, its place, and the choice between that and what is faster.
+// What is not: the sweep (wall_sweep.cpp), CGAL (wall_apollonius.cpp), walls between clipped discs
+// (wall_discretised.cpp).
 #include "geometry/wall.h"
 
 #include <algorithm>
@@ -13,17 +14,39 @@ namespace {
 /// Below this many holes all pairs are cheaper than nine times as many sites of a graph.
 constexpr std::size_t brute_force_holes = 256;
 
-/// The graph is one of circles; with any other shape among the holes all pairs are compared.
+/// The graph is one of circles; with any other shape among the holes the sweep is taken.
 bool all_circles(const PerforationLayout& layout) {
   return std::all_of(layout.perforations.begin(), layout.perforations.end(),
                      [](const Perforation& hole) { return std::holds_alternative<Circle>(hole.shape); });
 }
 
+/// Where the wall that was found is: of the images of the two holes those with the least gap.
+void find_place(const PerforationLayout& layout, ThinnestWall& wall) {
+  if (wall.first < 0) return;
+  const Perforation& first = layout.perforations[static_cast<std::size_t>(wall.first)];
+  const Perforation& second = layout.perforations[static_cast<std::size_t>(wall.second)];
+  double least = std::numeric_limits<double>::infinity();
+  for (int column = -2; column <= 2; ++column)
+    for (int row = -2; row <= 2; ++row) {
+      if (wall.first == wall.second && column == 0 && row == 0) continue;
+      const Gap gap = first.gap_to(second, column * layout.width, row * layout.height);
+      if (gap.length < least) {
+        least = gap.length;
+        wall.from = gap.from;
+        wall.to = gap.to;
+      }
+    }
+}
+
 }  // namespace
 
 ThinnestWall thinnest_wall(const PerforationLayout& layout) {
-  return layout.perforations.size() <= brute_force_holes || !all_circles(layout) ? thinnest_wall_brute_force(layout)
-                                                                                 : thinnest_wall_apollonius(layout);
+  const bool few = layout.perforations.size() <= brute_force_holes;
+  ThinnestWall wall = !all_circles(layout) ? thinnest_wall_sweep(layout)
+                      : few                ? thinnest_wall_brute_force(layout)
+                                           : thinnest_wall_apollonius(layout);
+  find_place(layout, wall);
+  return wall;
 }
 
 ThinnestWall thinnest_wall_brute_force(const PerforationLayout& layout) {

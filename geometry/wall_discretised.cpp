@@ -23,6 +23,8 @@ double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout
   const CellGrid grid(clipped.width, clipped.height, reach, clipped.x.size(), [&](std::size_t i) {
     return Point{clipped.x[i], clipped.y[i]};
   });
+  // Discs near a long hole may be so through another image than the one nearest to its centre.
+  const int around = 2.0 * reach > std::min(clipped.width, clipped.height) ? 1 : 0;
   PerforationLayout voids = layout;
   std::vector<NearDisc> near;
   for (Perforation& hole : voids.perforations) {
@@ -31,7 +33,9 @@ double thinnest_wall_discretised(const Packing& clipped, const PerforationLayout
       const std::size_t i = static_cast<std::size_t>(index);
       const double dx = nearest_image(clipped.x[i] - hole.x, clipped.width, 0.5 * clipped.width);
       const double dy = nearest_image(clipped.y[i] - hole.y, clipped.height, 0.5 * clipped.height);
-      near.push_back({{dx, dy}, clipped.radius[i]});
+      for (int column = -around; column <= around; ++column)
+        for (int row = -around; row <= around; ++row)
+          near.push_back({{dx + column * clipped.width, dy + row * clipped.height}, clipped.radius[i]});
     });
     hole = hole.clear_of(near, reach);
   }

@@ -285,7 +285,53 @@ std::vector<std::string> quoted_fields(std::string_view line) {
   return fields;
 }
 
+/// Fields of a line of someone else's file.
+std::vector<std::string> text_fields(std::string_view line) {
+  std::vector<std::string> fields;
+  if (line.find(',') == std::string_view::npos) {
+    for (const std::string_view field : fields_of(line)) fields.emplace_back(field);
+    return fields;
+  }
+  for (const std::string& field : quoted_fields(line)) fields.emplace_back(trimmed(field));
+  return fields;
+}
+
 }  // namespace
+
+std::vector<std::string> csv_names(const std::filesystem::path& path) {
+  const std::string text = read_file(path, largest_file);
+  Lines lines(text);
+  if (!lines.next()) return {};
+  std::vector<std::string> names;
+  for (const std::string& field : text_fields(lines.line())) {
+    if (number_of(field)) return {};
+    names.push_back(lower(field));
+  }
+  return names;
+}
+
+CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_rows) {
+  const std::string text = read_file(path, largest_file);
+  CsvTexts table;
+  Lines lines(text);
+  while (lines.next()) {
+    const Origin origin{path.string(), lines.number(), ""};
+    std::vector<std::string> fields = text_fields(lines.line());
+    if (table.names.empty()) {
+      for (const std::string& field : fields) table.names.push_back(lower(field));
+      continue;
+    }
+    if (table.rows.size() == maximum_rows)
+      throw InputError(origin, fmt::format("is more than the {} rows allowed", maximum_rows), "", "shorten the file");
+    if (fields.size() != table.names.size())
+      throw InputError(origin, fmt::format("has {} values", fields.size()),
+                       fmt::format("the header names {} columns", table.names.size()),
+                       "correct this line; a text with commas stands in quotes");
+    table.rows.push_back(std::move(fields));
+    table.lines.push_back(lines.number());
+  }
+  return table;
+}
 
 std::size_t TextTable::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);

@@ -38,6 +38,19 @@ struct CsvQuantity {
 /// The same with units, numbers turned into SI. The first line that is not blank must name the columns.
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvQuantity>& wanted, std::size_t maximum_rows);
 
+/// Names of the columns, in lower case; none where the first line that is not blank holds a number.
+std::vector<std::string> csv_names(const std::filesystem::path& path);
+
+/// A table with named columns whose fields are texts: names of shapes beside numbers.
+struct CsvTexts {
+  std::vector<std::string> names;              ///< in lower case
+  std::vector<std::vector<std::string>> rows;  ///< each as long as names
+  std::vector<int> lines;                      ///< as in CsvTable
+};
+/// Reads a file as read_csv does, but for quoted fields, which may hold commas; the first line that is not blank must
+/// name the columns. Throws InputError for a missing file, a line with a wrong number of fields, too many rows.
+CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_rows);
+
 /// A table that perfora wrote: every field as text.
 struct TextTable {
   std::filesystem::path path;

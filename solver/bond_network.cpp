@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/near_holes.h"
 #include "solver/cell_grid.h"
 #include "solver/noise.h"
 
@@ -34,21 +35,25 @@ class Perforations {
   /// For segments no longer than `longest`, which may dip into a hole by `allowed`. Holes into which none dips deeper
   /// need no test.
   Perforations(const geometry::PerforationLayout& layout, double longest, double allowed)
-      : width_(layout.width), height_(layout.height), allowed_(allowed) {
-    for (const geometry::Perforation& hole : layout.perforations) {
+      : layout_(deep_enough(layout, longest, allowed)), near_(layout_, 0.5 * longest), allowed_(allowed) {
+    for (const geometry::Perforation& hole : layout_.perforations) {
       const double far = hole.reach() + longest;
-      if (hole.deepest_dip(longest) > allowed) holes_.push_back({hole, far * far});
+      far_squared_.push_back(far * far);
     }
   }
   /// Whether a hole separates the ends of the segment from (x, y) along the branch.
   bool separates(double x, double y, const Branch& branch) const {
-    for (const Hole& hole : holes_) {
-      // Image of the hole nearest to the middle of the segment.
-      double cx = hole.perforation.x - (x + 0.5 * branch.x), cy = hole.perforation.y - (y + 0.5 * branch.y);
-      cx -= width_ * std::nearbyint(cx / width_);
-      cy -= height_ * std::nearbyint(cy / height_);
-      if (cx * cx + cy * cy > hole.far_squared) continue;
-      geometry::Perforation near = hole.perforation;
+    const double width = layout_.width, height = layout_.height;
+    const double mid_x = x + 0.5 * branch.x, mid_y = y + 0.5 * branch.y;
+    const double columns = std::floor(mid_x / width), rows = std::floor(mid_y / height);
+    for (const auto& image : near_.around(mid_x - columns * width, mid_y - rows * height)) {
+      const auto at = static_cast<std::size_t>(image.hole);
+      const geometry::Perforation& hole = layout_.perforations[at];
+      // The image of the hole as seen from the middle of the segment.
+      const double cx = hole.x - mid_x + (image.column + columns) * width;
+      const double cy = hole.y - mid_y + (image.row + rows) * height;
+      if (cx * cx + cy * cy > far_squared_[at]) continue;
+      geometry::Perforation near = hole;
       near.x = x + 0.5 * branch.x + cx;
       near.y = y + 0.5 * branch.y + cy;
       if (near.segment_depth(x, y, x + branch.x, y + branch.y) > allowed_) return true;
@@ -57,12 +62,18 @@ class Perforations {
   }
 
  private:
-  struct Hole {
-    geometry::Perforation perforation;
-    double far_squared;  ///< no segment whose middle lies farther from the centre reaches into the hole
-  };
-  double width_, height_, allowed_;
-  std::vector<Hole> holes_;
+  static geometry::PerforationLayout deep_enough(const geometry::PerforationLayout& layout, double longest,
+                                                 double allowed) {
+    geometry::PerforationLayout deep{layout.width, layout.height, {}};
+    for (const geometry::Perforation& hole : layout.perforations)
+      if (hole.deepest_dip(longest) > allowed) deep.perforations.push_back(hole);
+    return deep;
+  }
+
+  geometry::PerforationLayout layout_;
+  geometry::NearHoles near_;
+  double allowed_;
+  std::vector<double> far_squared_;  ///< no segment whose middle lies farther from the centre reaches into the hole
 };
 
 template <class Found>

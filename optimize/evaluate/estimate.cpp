@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/clip.h"
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
 #include "optimize/evaluate/estimate_stepping.h"
@@ -31,8 +32,13 @@ double shared_hole_area(const geometry::PerforationLayout& layout, double radius
   double total = 0.0;
   for (int k = 0; k <= intervals; ++k) {
     const double h = k * step;
-    double area = 0.0;
-    for (const geometry::Perforation& hole : layout.perforations) area += hole.shared_area(h);
+    double area = 0.0, of_one = 0.0;
+    const geometry::Perforation* last = nullptr;
+    for (const geometry::Perforation& hole : layout.perforations) {
+      if (last == nullptr || !(hole.shape == last->shape)) of_one = hole.shared_area(h);
+      area += of_one;
+      last = &hole;
+    }
     const double weight = k == 0 || k == intervals ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
     total += weight * 2.0 * std::numbers::pi * h * area;
   }
@@ -43,19 +49,23 @@ double shared_hole_area(const geometry::PerforationLayout& layout, double radius
 struct Discs {
   std::int64_t count = 0;
   double mean_diameter = 0.0;
+  std::int64_t left = 0;          ///< by the perforations
   std::vector<double> diameters;  ///< a sample
 };
 
-Discs periodic_discs(const Design& design) {
+/// An imported packing may have its openings already: what the perforations take is counted there.
+Discs periodic_discs(const Design& design, const geometry::PerforationLayout& layout) {
   const double width = design.layout.width, height = design.layout.height;
   const geometry::PackingOptions& options = design.packing;
   if (!options.file.empty()) {
     const geometry::Packing packing = geometry::import_packing(options.file, width, height);
-    Discs discs{packing.size(), packing.mean_diameter(), {}};
+    Discs discs{packing.size(), packing.mean_diameter(), 0, {}};
+    discs.left = geometry::clip_packing(packing, layout, options.clip).size();
     for (const double radius : packing.radius) discs.diameters.push_back(2.0 * radius);
     return discs;
   }
-  Discs discs{geometry::expected_discs(options, width, height), options.mean_diameter, {}};
+  Discs discs{geometry::expected_discs(options, width, height), options.mean_diameter, 0, {}};
+  discs.left = std::llround(static_cast<double>(discs.count) * layout.solid_area_fraction());
   const geometry::SizeLaw law{
       geometry::size_law_exponent(options.mean_diameter, options.maximum_diameter, options.size_ratio),
       options.size_ratio};
@@ -129,15 +139,17 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   const Design& design = file.design();
   DesignEstimate estimate;
   const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &file.schema());
-  const Discs discs = periodic_discs(design);
+  const Discs discs = periodic_discs(design, layout);
   const double cell = layout.width * layout.height;
   const double solid = layout.solid_area_fraction();
   estimate.perforations = static_cast<std::int64_t>(layout.perforations.size());
   estimate.thinnest_wall = geometry::thinnest_wall(layout);
   estimate.porosity = 1.0 - solid;
   estimate.horizon_radius = design.solver.material.horizon * discs.mean_diameter;
-  estimate.discs = std::llround(static_cast<double>(discs.count) * solid);
-  const double density = static_cast<double>(discs.count) / cell;
+  estimate.discs = discs.left;
+  const bool made = design.packing.file.empty();
+  const double density =
+      made ? static_cast<double>(discs.count) / cell : static_cast<double>(discs.left) / (cell * solid);
   const double cut = bonds_cut_by_edges(layout, design.solver.boundary, density, estimate.horizon_radius);
   estimate.bonds_per_disc = std::max(0.0, expected_bonds_per_disc(layout, density, estimate.horizon_radius) -
                                               2.0 * cut / std::max(1.0, static_cast<double>(estimate.discs)));

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "geometry/make_packing.h"
+#include "geometry/make_shape.h"
 #include "geometry/packing_file.h"
 #include "io/error.h"
 
@@ -60,6 +61,49 @@ TEST_F(PackingFile, ComesBackAsItWas) {
   EXPECT_TRUE(read_layout(file, "/empty").perforations.empty());
 }
 
+// Circles alone leave no other datasets than before; of other shapes every number comes back.
+TEST_F(PackingFile, LayoutsOfEveryShapeComeBack) {
+  PerforationLayout layout{0.15, 0.10, {{0.01, 0.02, Circle{0.003}}}};
+  const auto written = [&] {
+    io::Hdf5Writer file(path);
+    write_layout(file, "/layout", layout);
+    file.commit();
+  };
+  written();
+  EXPECT_FALSE(io::Hdf5Reader(path).has("/layout/corners"));
+  layout.perforations.push_back({0.03, 0.02, make_shape(ShapeKind::slot, {8e-3, 2e-3, 0.3, 0.0, {}})});
+  layout.perforations.push_back({0.05, 0.06, Circle{0.007}});
+  layout.perforations.push_back({0.07, 0.06, make_shape(ShapeKind::ellipse, {8e-3, 2e-3, 0.3, 0.0, {}})});
+  layout.perforations.push_back(
+      {0.09, 0.06, make_shape(ShapeKind::polygon, {8e-3, 0.0, 0.0, 0.0, {{3, 0}, {0, 1}, {1, 0}, {0, -1}}})});
+  written();
+  EXPECT_EQ(read_layout(io::Hdf5Reader(path), "/layout").perforations, layout.perforations);
+}
+
+TEST_F(PackingFile, RefusesCornersThatAreNoOutline) {
+  const auto refused = [&](const std::vector<double>& corners, const std::vector<std::int64_t>& first) {
+    {
+      const std::vector<double> one{0.01}, radius{0.0};
+      io::Hdf5Writer file(path);
+      file.group("/layout");
+      for (const char* name : {"/layout/x", "/layout/y", "/layout/diameter"})
+        file.dataset(name, std::span<const double>(one), 0, "m");
+      file.dataset("/layout/radius", std::span<const double>(radius), 0, "m");
+      file.dataset("/layout/first_corner", std::span<const std::int64_t>(first));
+      file.dataset("/layout/corners", std::span<const double>(corners), 2, "m");
+      file.attribute("/layout", "width", 0.1);
+      file.attribute("/layout", "height", 0.1);
+      file.commit();
+    }
+    EXPECT_THROW(static_cast<void>(read_layout(io::Hdf5Reader(path), "/layout")), io::InputError);
+  };
+  refused({0, 0, 1, 1, 1, 0, 0, 1}, {0, 4});  // crosses itself
+  refused({0, 0, 0, 1, 1, 0}, {0, 3});        // clockwise
+  refused({0, 0, 1, 0, 0, 1}, {0, 4});        // more corners than there are
+  refused({0, 0, 1, 0, 0, 1}, {0});
+  refused({0, 0, 0, 0}, {0, 2});
+}
+
 TEST_F(PackingFile, RefusesDiscsOutsideTheCellAndUnequalArrays) {
   const auto refused = [&] {
     {
@@ -105,7 +149,8 @@ TEST_F(PackingFile, AKeyThatDisagreesNamesTheFieldAndBothValues) {
   for (const auto& change : std::vector<std::function<void(PackingKey&)>>{
            [](PackingKey& key) { key.width = 1; }, [](PackingKey& key) { key.height = 1; },
            [](PackingKey& key) { key.mean_diameter = 1; }, [](PackingKey& key) { key.maximum_diameter = 2; },
-           [](PackingKey& key) { key.size_ratio = 2; }, [](PackingKey& key) { key.algorithm_version = packing_algorithm_version + 1; },
+           [](PackingKey& key) { key.size_ratio = 2; },
+           [](PackingKey& key) { key.algorithm_version = packing_algorithm_version + 1; },
            [](PackingKey& key) { key.source = "crc32:1"; }})
     EXPECT_NE(complaint(change), "");
 }

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "geometry/make_shape.h"
-#include "geometry/random.h"
+#include "rim_oracle.h"
 
 namespace perfora::geometry {
 namespace {
+
+using brute_force::Uniform;
 
 const Perforation hole{1.0, 2.0, Circle{0.6}};
 
@@ -55,18 +57,6 @@ TEST(Circle, AreaExtentsChordsAndLens) {
   EXPECT_NEAR(hole.shared_area(0.3), 0.09 * (2.0 * std::numbers::pi / 3.0 - 0.5 * std::numbers::sqrt3), 1e-15);
   EXPECT_EQ(hole.shared_area(0.6), 0.0);
 }
-
-/// Random numbers in [low, high) of one test.
-class Uniform {
- public:
-  explicit Uniform(std::uint64_t seed) : seed_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * uniform_pair(seed_, RandomStream::hole_place, index_++)[0];
-  }
-
- private:
-  std::uint64_t seed_, index_ = 0;
-};
 
 /// Holes of every kind, about 0.1 to 1 wide, in the unit square.
 std::vector<Perforation> samples(std::uint64_t seed) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/make_shape.h"
 #include "tests/solver/sample_packings.h"
 
 namespace perfora::solver {
@@ -86,6 +87,72 @@ TEST(BondNetwork, NoBondAcrossSmallHoles) {
       }
   }
   EXPECT_GT(refused, 50);
+}
+
+// Nor across slots, one of them through the edge, two nearly as long as the cell: the depth in a slot is its radius
+// less the distance of two segments, which is least at an end of one of them unless they cross.
+TEST(BondNetwork, NoBondAcrossSlots) {
+  const auto to_segment = [](double px, double py, double ax, double ay, double bx, double by) {
+    const double ux = bx - ax, uy = by - ay;
+    const double t = std::clamp(((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy), 0.0, 1.0);
+    return std::hypot(px - ax - t * ux, py - ay - t * uy);
+  };
+  int refused = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    test::Uniform u(seed);
+    const geometry::Packing all = test::jittered_packing(24, 0.5e-3, seed);
+    geometry::Packing p = all;
+    struct Slot {
+      double x, y, half, radius, angle;
+    };
+    const std::vector<Slot> slots{{0.0, 0.4e-3, 5.4e-3, 0.4e-3, 0.0},
+                                  {6e-3 + u(-1e-3, 1e-3), 6e-3, 2e-3, u(0.3e-3, 0.8e-3), u(-1.5, 1.5)},
+                                  {3e-3, 9.5e-3, 5.2e-3, 0.3e-3, 0.05}};
+    geometry::PerforationLayout layout = test::no_holes(all);
+    for (const Slot& s : slots)
+      layout.perforations.push_back(
+          {s.x, s.y,
+           geometry::make_shape(geometry::ShapeKind::slot,
+                                {2.0 * (s.half + s.radius), 2.0 * s.radius, s.angle, 0.0, {}})});
+    const auto depth = [&](double ax, double ay, double bx, double by) {
+      double deepest = 0.0;
+      for (const Slot& s : slots)
+        for (int ix = -2; ix <= 2; ++ix)
+          for (int iy = -2; iy <= 2; ++iy) {
+            const double cx = s.x + ix * p.width, cy = s.y + iy * p.height;
+            const double hx = s.half * std::cos(s.angle), hy = s.half * std::sin(s.angle);
+            const auto side = [&](double x0, double y0, double x1, double y1, double x, double y) {
+              return (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0.0;
+            };
+            double apart =
+                std::min({to_segment(ax, ay, cx - hx, cy - hy, cx + hx, cy + hy),
+                          to_segment(bx, by, cx - hx, cy - hy, cx + hx, cy + hy),
+                          to_segment(cx - hx, cy - hy, ax, ay, bx, by), to_segment(cx + hx, cy + hy, ax, ay, bx, by)});
+            if (side(ax, ay, bx, by, cx - hx, cy - hy) != side(ax, ay, bx, by, cx + hx, cy + hy) &&
+                side(cx - hx, cy - hy, cx + hx, cy + hy, ax, ay) != side(cx - hx, cy - hy, cx + hx, cy + hy, bx, by))
+              apart = 0.0;
+            deepest = std::max(deepest, s.radius - apart);
+          }
+      return deepest;
+    };
+    p.x.clear(), p.y.clear(), p.radius.clear();
+    for (std::size_t k = 0; k < all.x.size(); ++k)
+      if (depth(all.x[k], all.y[k], all.x[k] + 1e-9, all.y[k]) < 1e-9)
+        p.x.push_back(all.x[k]), p.y.push_back(all.y[k]), p.radius.push_back(all.radius[k]);
+    const BondNetwork net = make_bond_network(p, layout, {}, {}, 1, 0.5e-3);
+    std::set<std::pair<int, int>> found;
+    for (std::size_t b = 0; b < net.i.size(); ++b) found.insert({net.i[b], net.j[b]});
+    for (std::size_t a = 0; a < p.x.size(); ++a)
+      for (std::size_t b = a + 1; b < p.x.size(); ++b) {
+        if (distance(p, a, b) > 1.5e-3) continue;
+        const double dx = std::remainder(p.x[b] - p.x[a], p.width), dy = std::remainder(p.y[b] - p.y[a], p.height);
+        const double dip = depth(p.x[a], p.y[a], p.x[a] + dx, p.y[a] + dy);
+        if (std::fabs(dip - 0.125e-3) < 1e-12) continue;
+        EXPECT_EQ(found.count({static_cast<int>(a), static_cast<int>(b)}) == 1, dip <= 0.125e-3) << dip;
+        refused += dip > 0.125e-3;
+      }
+  }
+  EXPECT_GT(refused, 200);
 }
 
 // Near pairs: mirrored rows, complete against brute force, right after a rebuild and as long as the list says it is
