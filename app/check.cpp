@@ -95,7 +95,19 @@ int check_study_file(const CheckFlags& flags) {
   const optimize::StudyEstimate study = optimize::check_study(flags.file, flags.common.overrides());
   const double seconds = optimize::estimate_design(*study.start, flags.common.thread_count()).seconds;
   json arms = json::array();
-  std::string text = "Study\n";
+  std::string text = "Wished\n";
+  for (const std::string& wish : study.wishes) text += fmt::format("  {}\n", wish);
+  text += "Every candidate\n";
+  for (const std::string& constraint : study.constraints) text += fmt::format("  {}\n", constraint);
+  text += "Varied\n";
+  json variables = json::object();
+  for (const optimize::Variable& variable : study.variables) {
+    variables[variable.key] = {variable.low, variable.high};
+    text += line(variable.key,
+                 fmt::format("{}, start {}", io::quantities({variable.low, variable.high}, variable.dimension, " to "),
+                             io::quantity(study.start->schema().get_number(variable.key), variable.dimension)));
+  }
+  text += "Study\n";
   text += line("candidates", io::count(study.candidates));
   text += line("compressions, at most", io::count(study.simulations));
   text += line("time, roughly (each like the start)", io::duration(seconds * static_cast<double>(study.simulations)));
@@ -106,6 +118,9 @@ int check_study_file(const CheckFlags& flags) {
   const json object = {{"candidates", study.candidates},
                        {"simulations", study.simulations},
                        {"seconds", seconds * static_cast<double>(study.simulations)},
+                       {"wishes", study.wishes},
+                       {"constraints", study.constraints},
+                       {"variables", variables},
                        {"arms", arms}};
   return report(flags, "study", object, text, *study.start, study.warnings);
 }

@@ -67,7 +67,7 @@ int evaluate_one(const EvaluateFlags& flags) {
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
   if (std::filesystem::exists(options.run_file)) write_beside(options.run_file);
   log_warnings(optimize::validity_warnings(evaluation, design.design().solver.loading));
-  const auto record = results::to_json(evaluation, false);
+  const auto record = optimize::evaluation_record(design, evaluation);
   print_record(record, flags.common.json);
   say_how_it_ended(evaluation.status, evaluation.reason, options.run_file.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);

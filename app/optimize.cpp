@@ -42,9 +42,9 @@ void announce(const optimize::Study& study) {
   log_warnings(study.warnings);
   for (const optimize::Arm& arm : study.arms)
     io::log_info(fmt::format("arm {}: {} candidates, {}", arm.name, arm.maxeval, study.keys.algorithm));
-  io::log_info(fmt::format("target {} over strain {:g} to {:g}; {} replicate{} a candidate",
-                           io::quantity(study.target.plateau_stress, io::Dimension::stress), study.target.window[0],
-                           study.target.window[1], study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
+  for (const std::string& line : results::in_words(study.target, study.start->design().measures))
+    io::log_info("wished: " + line);
+  io::log_info(fmt::format("{} replicate{} a candidate", study.keys.replicates, study.keys.replicates == 1 ? "" : "s"));
 }
 
 /// The best design once more with its frames: best.h5, its CSV and XDMF.
@@ -68,7 +68,7 @@ void draw(const optimize::StudyRun& run) {
   if (!fs::exists(folder / "best.h5")) return;
   report::PlotOptions options;
   options.title = "best design of " + run.study().file.stem().string();
-  options.target_stress = run.study().target.plateau_stress;
+  if (run.study().target.plateau_stress > 0.0) options.target_stress = run.study().target.plateau_stress;
   report::plot_run(folder / "best.h5", folder / "best.png", options);
 }
 

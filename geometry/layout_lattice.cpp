@@ -1,4 +1,5 @@
-// What is here: places of holes on lattices. What is not: random placement (layout_random.cpp).
+// What is here: places of holes on lattices. What is not: rows along the cell (layout_rows.cpp), random placement
+// (layout_random.cpp).
 #include "geometry/layout_lattice.h"
 
 #include <numeric>
@@ -14,9 +15,9 @@ std::int64_t modulo(std::int64_t value, std::int64_t period) {
 
 /// One coordinate of the lattice points (k + 1/2, m + 1/2): the share (a (k + 1/2) + b (m + 1/2))/holes of the period,
 /// in whole numbers (doubled, and divided by what a, b and the number of holes have in common) until the last line.
-class TurnedAxis {
+class LatticeAxis {
  public:
-  TurnedAxis(double period, std::int64_t a, std::int64_t b, std::int64_t holes)
+  LatticeAxis(double period, std::int64_t a, std::int64_t b, std::int64_t holes)
       : common_(std::gcd(a, b)),
         a_(a / common_),
         b_(b / common_),
@@ -35,31 +36,30 @@ class TurnedAxis {
 
 }  // namespace
 
-std::vector<Perforation> place_in_rows(const LayoutOptions& options, double stagger, double grading) {
-  std::vector<Perforation> holes;
-  const double pitch_x = options.width / options.columns, pitch_y = options.height / options.rows;
-  for (int row = 0; row < options.rows; ++row) {
-    const double height_fraction = options.rows > 1 ? static_cast<double>(row) / (options.rows - 1) : 0.5;
-    const double diameter = options.diameter * (1.0 + grading * (height_fraction - 0.5));
-    for (int column = 0; column < options.columns; ++column)
-      holes.push_back(
-          {(column + 0.5 + (row % 2 == 1 ? stagger : 0.0)) * pitch_x, (row + 0.5) * pitch_y, Circle{diameter}});
-  }
-  return holes;
-}
-
-std::vector<Perforation> place_turned(const LayoutOptions& options) {
+std::vector<PlannedHole> plan_turned(const LayoutOptions& options) {
   const std::int64_t rows = options.rows, columns = options.columns, turn = options.turn;
   const std::int64_t count = rows * columns + turn * turn;
   // (u, v) = M^-1 (k, m) with M = ((columns, turn), (-turn, rows)), whose determinant is the number of holes.
-  const TurnedAxis x(options.width, rows, -turn, count), y(options.height, turn, columns, count);
+  const LatticeAxis x(options.width, rows, -turn, count), y(options.height, turn, columns, count);
   // The periods reach the lattice rows m that are multiples of gcd(turn, rows), and along m = 0 every count/gcd-th
   // point (Hermite's normal form of M): so these points stand for all, each once.
   const std::int64_t lines = std::gcd(turn, rows);
-  std::vector<Perforation> holes;
+  std::vector<PlannedHole> holes;
   for (std::int64_t m = 0; m < lines; ++m)
-    for (std::int64_t k = 0; k < count / lines; ++k)
-      holes.push_back({x.at(k, m), y.at(k, m), Circle{options.diameter}});
+    for (std::int64_t k = 0; k < count / lines; ++k) holes.push_back(plain_hole(options, x.at(k, m), y.at(k, m)));
+  return holes;
+}
+
+std::vector<PlannedHole> plan_oblique(const LayoutOptions& options) {
+  const std::int64_t rows = options.rows, columns = options.columns;
+  const double pitch = options.width / options.columns;
+  const LatticeAxis y(options.height, options.climb, columns, rows * columns);
+  std::vector<PlannedHole> holes;
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (std::int64_t column = 0; column < columns; ++column) {
+      holes.push_back(plain_hole(options, (static_cast<double>(column) + 0.5) * pitch, y.at(column, row)));
+      if (options.herringbone && row % 2 == 1) holes.back().angle = -holes.back().angle;
+    }
   return holes;
 }
 

@@ -10,7 +10,17 @@
 namespace perfora::geometry {
 
 /// Independent sequences drawn from one seed.
-enum class RandomStream : std::uint32_t { disc_size = 1, disc_place, disc_order, hole_place, hole_jitter, hole_move };
+enum class RandomStream : std::uint32_t {
+  disc_size = 1,
+  disc_place,
+  disc_order,
+  hole_place,
+  hole_jitter,
+  hole_move,
+  hole_size,
+  hole_angle,
+  row_shift
+};
 
 /// Two numbers, uniform in [0, 1) with 53 bits each: Philox4x32-10 (Salmon et al. 2011), key = seed, counter = (index,
 /// stream, round).

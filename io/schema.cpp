@@ -1,4 +1,5 @@
-// What is here: the table of keys: finding, setting by name, unknown names, --set, entries of a file.
+// What is here: the table of keys: finding, setting by name, elements of lists, unknown names, --set, entries of a
+// file.
 // What is not: how one key takes its value (schema_keys.cpp), printing (schema_print.cpp), TOML syntax
 // (toml.cpp).
 #include "io/schema.h"
@@ -7,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "io/text.h"
 
@@ -100,6 +103,49 @@ bool is_section(std::string_view name) {
   return name.find('.') == std::string_view::npos;
 }
 
+/// "layout.holes[3][2]" taken apart.
+struct ElementName {
+  std::string_view key;
+  std::string_view places;  ///< "[3][2]"; empty: the key itself
+};
+
+ElementName split_element(std::string_view full_name) {
+  const std::size_t bracket = std::min(full_name.find('['), full_name.size());
+  return {full_name.substr(0, bracket), full_name.substr(bracket)};
+}
+
+/// The first place of "[3][2]", taken off; nothing where there is no whole number in brackets.
+std::optional<std::size_t> take_place(std::string_view& places) {
+  const std::size_t end = places.find(']');
+  if (!places.starts_with('[') || end == std::string_view::npos) return std::nullopt;
+  std::size_t place = 0;
+  const char* last = places.data() + end;
+  const auto [stop, error] = std::from_chars(places.data() + 1, last, place);
+  if (error != std::errc() || stop != last) return std::nullopt;
+  places.remove_prefix(end + 1);
+  return place;
+}
+
+/// The element of `whole`, the value of `key`, that `places` names; throws InputError for one that is not there.
+Value& element_at(const Key& key, Value& whole, std::string_view places, const Origin& origin) {
+  if (!key.list()) throw InputError(origin, "is an element, but the key is no list", "", "write " + key.full_name());
+  Value* at = &whole;
+  for (std::size_t depth = key.type == KeyType::real_rows ? 2 : 1; depth > 0; --depth) {
+    const std::optional<std::size_t> place = take_place(places);
+    auto& list = std::get<ValueList>(at->data);
+    if (!place)
+      throw InputError(origin, "does not name an element of the list",
+                       fmt::format("{}[0]{}", key.full_name(), key.type == KeyType::real_rows ? "[0]" : ""));
+    if (*place >= list.size())
+      throw InputError(origin, fmt::format("the list has {} values here", list.size()),
+                       list.empty() ? "" : fmt::format("[0] to [{}]", list.size() - 1),
+                       "set the list first: an element must be there already");
+    at = &list[*place];
+  }
+  if (!places.empty()) throw InputError(origin, "names more than an element of the list");
+  return *at;
+}
+
 bool holds_text(const Value& value) {
   return std::holds_alternative<std::string>(value.data);
 }
@@ -138,6 +184,8 @@ const std::string& Schema::section_help(std::string_view section) const {
 }
 
 std::string Schema::name_today(std::string_view full_name) const {
+  if (const ElementName element = split_element(full_name); !element.places.empty())
+    return name_today(element.key) + std::string(element.places);
   for (const Renaming& renaming : renamings_) {
     if (full_name == renaming.old_name) return renaming.name;
     if (is_section(renaming.old_name) && full_name.starts_with(renaming.old_name + "."))
@@ -147,6 +195,8 @@ std::string Schema::name_today(std::string_view full_name) const {
 }
 
 std::string Schema::first_name(std::string_view full_name) const {
+  if (const ElementName element = split_element(full_name); !element.places.empty())
+    return first_name(element.key) + std::string(element.places);
   for (const Renaming& renaming : renamings_) {
     if (full_name == renaming.name) return renaming.old_name;
     if (is_section(renaming.name) && full_name.starts_with(renaming.name + "."))
@@ -169,7 +219,7 @@ void Schema::note_old_name(const Origin& origin) {
 }
 
 const Key* Schema::find(std::string_view full_name) const {
-  const std::string today = name_today(full_name);
+  const std::string today = name_today(split_element(full_name).key);
   for (const Key& key : keys_) {
     const std::size_t dot = key.section.size();
     if (today.size() == dot + 1 + key.name.size() && today[dot] == '.' && today.starts_with(key.section) &&
@@ -193,7 +243,14 @@ void Schema::set(std::string_view full_name, const Value& value, Origin origin) 
   const std::string today = name_today(full_name);
   origin.key = full_name;
   if (origin.line == 0) origin.line = value.line;
-  at(full_name, origin).set(value, origin);
+  const Key& key = at(full_name, origin);
+  if (const std::string_view places = split_element(today).places; places.empty()) {
+    key.set(value, origin);
+  } else {
+    Value whole = key.get();
+    element_at(key, whole, places, origin) = value;
+    key.set(whole, origin);
+  }
   if (today != full_name) note_old_name(origin);
   const auto same = [&today](const auto& entry) { return entry.first == today; };
   const auto known = std::find_if(origins_.begin(), origins_.end(), same);
@@ -203,20 +260,29 @@ void Schema::set(std::string_view full_name, const Value& value, Origin origin) 
     origins_.emplace_back(today, std::move(origin));
 }
 
-void Schema::set_number(std::string_view full_name, double value, Origin origin) {
+bool Schema::is_number(std::string_view full_name) const {
   const Key* key = find(full_name);
-  if (key != nullptr && !key->numeric()) {
+  if (key == nullptr) return false;
+  return split_element(full_name).places.empty() ? key->numeric() : key->list();
+}
+
+void Schema::set_number(std::string_view full_name, double value, Origin origin) {
+  if (const Key* key = find(full_name); key != nullptr && !is_number(full_name)) {
     origin.key = full_name;
-    throw InputError(origin, "is not a number that could be varied", "", "choose a key that holds one number");
+    throw InputError(origin, "is not a number that could be varied", "",
+                     key->list() ? fmt::format("name an element, such as {}[0]", key->full_name())
+                                 : "choose a key that holds one number");
   }
   set(full_name, Value{value}, std::move(origin));
 }
 
 double Schema::get_number(std::string_view full_name) const {
   const Key& key = at(full_name);
-  if (!key.numeric())
-    throw InputError({"", 0, std::string(full_name)}, "is not a number", "a key that holds one number is wanted");
-  const Value value = key.get();
+  const Origin origin{"", 0, std::string(full_name)};
+  if (!is_number(full_name)) throw InputError(origin, "is not a number", "a key that holds one number is wanted");
+  Value whole = key.get();
+  const std::string_view places = split_element(full_name).places;
+  const Value& value = places.empty() ? whole : element_at(key, whole, places, origin);
   if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*whole);
   return std::get<double>(value.data);
 }

@@ -78,11 +78,14 @@ struct Key {
 
   std::string full_name() const { return section + "." + name; }
   bool at_default() const;  ///< the value is now what it was when the key was described
-  /// Whether a study may vary it (a number).
   bool numeric() const { return type == KeyType::real || type == KeyType::integer; }
+  bool list() const { return type == KeyType::real_list || type == KeyType::real_rows; }
 };
 
 class Schema;
+
+/// Whether a list may be written as one number, without brackets.
+enum class OneNumber { refused, taken };
 
 /// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at
 /// that moment is the default.
@@ -95,7 +98,17 @@ class Section {
   Section& text(std::string name, std::string& field, std::string help);
   /// A relative path is resolved against the folder of the file it is written in.
   Section& path(std::string name, std::filesystem::path& field, std::string help);
-  Section& real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range, std::string help);
+  Section& real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range, std::string help,
+                     OneNumber one = OneNumber::refused);
+  /// A number (kept as a list of one), a list of numbers, or one of `words` (kept in `*word`, which is empty where
+  /// numbers stand). Number k of a list has dimensions[k], those behind the last one its.
+  struct NumbersForm {
+    std::vector<Dimension> dimensions;
+    std::string* word = nullptr;  ///< must outlive the Schema; nullptr: no words
+    std::vector<std::string> words = {};
+    std::size_t fewest = 0, most = 2;  ///< numbers; an empty list takes the key back where fewest is 0
+  };
+  Section& numbers(std::string name, std::vector<double>& field, NumbersForm form, std::string help);
   /// A list of rows of `columns` numbers each, flattened row by row into `field` (size rows x columns).
   Section& real_rows(std::string name, std::vector<double>& field, int columns, Dimension dimension, std::string help);
   template <class Enum>
@@ -130,7 +143,8 @@ struct Renaming {
 /// journals are made of these, so that a renaming leaves them as they are).
 enum class Names { today, first };
 
-/// The table of keys of one options object. Not copyable: its keys are bound to that object's fields.
+/// The table of keys of one options object. An element of a list goes by the name of its key and its place from 0:
+/// "layout.row_diameter[1]", in a list of rows "layout.holes[3][2]"; it must be there already. Not copyable: its keys are bound to that object's fields.
 class Schema {
  public:
   Schema() = default;
@@ -142,7 +156,8 @@ class Schema {
   const std::vector<Key>& keys() const { return keys_; }
   std::vector<std::string> section_names() const;
   const std::string& section_help(std::string_view section) const;
-  /// nullptr when there is no such key. Takes old names, as all functions here do that are given a name.
+  /// nullptr when there is no such key; the list where an element is named. Takes old names, as all functions here do
+  /// that are given a name.
   const Key* find(std::string_view full_name) const;
 
   /// The key of that name. Throws InputError naming the nearest one where there is none.
@@ -160,10 +175,13 @@ class Schema {
   /// Remembers that the old name origin.key stands at `origin`.
   void note_old_name(const Origin& origin);
 
-  /// Sets one key. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a
+  /// Whether the name stands for one number, which a study may vary: a numeric key, or an element of a list.
+  bool is_number(std::string_view full_name) const;
+
+  /// Sets one key or one element of a list. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a
   /// bad value.
   void set(std::string_view full_name, const Value& value, Origin origin);
-  /// Sets one numeric key in SI; throws as set() does.
+  /// Sets one number (is_number()) in SI; throws as set() does.
   void set_number(std::string_view full_name, double value, Origin origin);
   double get_number(std::string_view full_name) const;
   /// "section.key=value" as on the command line (value in TOML syntax, or a bare string).

@@ -176,11 +176,21 @@ Section& Section::path(std::string name, std::filesystem::path& field, std::stri
 }
 
 Section& Section::real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range,
-                            std::string help) {
+                            std::string help, OneNumber one) {
   Key key = described(std::move(name), KeyType::real_list, std::move(help), dimension, range);
-  key.set = [&field, dimension, range](const Value& value, const Origin& origin) {
+  key.set = [&field, dimension, range, one](const Value& value, const Origin& origin) {
     const auto* list = std::get_if<ValueList>(&value.data);
-    if (list == nullptr) refuse(value, "a list of numbers in square brackets is wanted", origin);
+    if (list == nullptr && one == OneNumber::taken && !std::holds_alternative<bool>(value.data)) {
+      const double number = parse_quantity(value, dimension, origin);
+      check_range(number, range, dimension, origin);
+      field = {number};
+      return;
+    }
+    if (list == nullptr)
+      refuse(value,
+             one == OneNumber::taken ? "a number or a list of numbers in square brackets is wanted"
+                                     : "a list of numbers in square brackets is wanted",
+             origin);
     std::vector<double> numbers;
     for (const Value& element : *list) {
       const Origin here = at_line_of(origin, element);
@@ -191,6 +201,41 @@ Section& Section::real_list(std::string name, std::vector<double>& field, Dimens
     field = std::move(numbers);
   };
   key.get = [&field] { return list_value(field.begin(), field.end()); };
+  return add(std::move(key));
+}
+
+Section& Section::numbers(std::string name, std::vector<double>& field, NumbersForm form, std::string help) {
+  assert(!form.dimensions.empty());
+  Key key = described(std::move(name), KeyType::real_list, std::move(help), form.dimensions.back());
+  key.choices = form.words;
+  std::string wanted = form.most == 1 ? "a number is wanted" : "a number or a list of numbers is wanted";
+  for (const std::string& word : form.words) wanted += fmt::format(", or \"{}\"", word);
+  key.set = [&field, form, wanted](const Value& value, const Origin& origin) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (text && std::find(form.words.begin(), form.words.end(), *text) != form.words.end()) {
+      *form.word = *text;
+      return field.clear();
+    }
+    const auto* list = std::get_if<ValueList>(&value.data);
+    std::vector<double> numbers;
+    const auto take = [&](const Value& element) {
+      const Dimension dimension = form.dimensions[std::min(numbers.size(), form.dimensions.size() - 1)];
+      numbers.push_back(parse_quantity(element, dimension, at_line_of(origin, element)));
+    };
+    if (!list && !form.words.empty() && text && nearest_name(*text, form.words) != "") refuse(value, wanted, origin);
+    if (list)
+      std::for_each(list->begin(), list->end(), take);
+    else
+      take(value);
+    if (numbers.size() < form.fewest || numbers.size() > form.most) refuse(value, wanted, origin);
+    field = std::move(numbers);
+    if (form.word) form.word->clear();
+  };
+  key.get = [&field, form] {
+    if (form.word && !form.word->empty()) return Value{*form.word};
+    if (field.size() == 1 && form.dimensions.size() == 1) return Value{field.front()};
+    return list_value(field.begin(), field.end());
+  };
   return add(std::move(key));
 }
 

@@ -10,6 +10,7 @@
 #include "report/canvas.h"
 #include "report/curve_panel.h"
 #include "report/plot.h"
+#include "report/verdict_line.h"
 #include "results/frame.h"
 #include "results/run_file.h"
 #include "results/summary_numbers.h"
@@ -71,6 +72,7 @@ void draw_heading(Canvas& canvas, const results::RunResult& run, const PlotOptio
   canvas.text(44.0, 88.0,
               canvas.fit(describe_block(run) + (damage.empty() ? "" : "; " + damage), page_width - 88.0, line_style),
               line_style);
+  draw_verdict(canvas, 44.0, 117.0, page_width - 88.0, run.summary);
   if (run.status != "completed" && !run.status.empty())
     canvas.text(page_width - right_margin, 56.0,
                 canvas.fit(run.status + ": " + run.reason, 420.0, {.size = 18.0, .bold = true}),

@@ -13,6 +13,7 @@
 #include "report/curve_mean.h"
 #include "report/curve_panel.h"
 #include "report/search_panel.h"
+#include "report/verdict_line.h"
 
 namespace perfora::report {
 namespace {
@@ -62,6 +63,8 @@ void draw_curves(Canvas& canvas, const results::StudyRecord& picture, const Box&
     series.push_back({curve.strain, curve.stress, best_colour, 1.0, 0.28});
   series.push_back({start_mean.strain, start_mean.stress, start_colour, 2.6, 1.0});
   series.push_back({best_mean.strain, best_mean.stress, best_colour, 3.0, 1.0});
+  if (!picture.target_curve.strain.empty())
+    series.push_back({picture.target_curve.strain, picture.target_curve.stress, palette::green, 2.0, 1.0});
   CurveMarks marks;
   marks.plateau_start = picture.window_start;
   marks.plateau_end = picture.window_end;
@@ -132,7 +135,8 @@ void plot_study(const results::StudyRecord& picture, const std::filesystem::path
   const TextStyle line{.size = 17.0, .colour = palette::soft_ink};
   canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
   canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
-  draw_search(canvas, picture, {left_axis, 172.0, left_end - left_axis, 228.0});
+  draw_verdict(canvas, page_margin, 117.0, page_width - 2.0 * page_margin, picture.outcome, picture.verdict);
+  draw_search(canvas, picture, {left_axis, 180.0, left_end - left_axis, 220.0});
   draw_curves(canvas, picture, {left_axis, 524.0, left_end - left_axis, page_height - 524.0 - 74.0});
   draw_designs(canvas, picture);
   draw_fact_table(canvas, picture);

@@ -183,6 +183,7 @@ void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out) {
   const TextStyle line{.size = 17.0, .colour = palette::soft_ink};
   canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
   canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
+  draw_verdict(canvas, page_margin, 114.0, page_width - 2.0 * page_margin, picture.outcome, picture.verdict);
   const double count = static_cast<double>(picture.measures.size());
   const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
   double y = first_row;

@@ -34,6 +34,7 @@ struct SweepGroup {
 
 struct SweepPicture {
   std::string title, subtitle;
+  std::string verdict, outcome;       ///< of an ensemble with a target; empty: none
   std::vector<std::string> measures;  ///< keys of the table of measures: "plateau_stress"
   std::vector<SweepGroup> groups;
   std::vector<SweepPoint> base;  ///< the design itself, drawn behind every group: none or one

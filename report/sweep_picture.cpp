@@ -40,6 +40,8 @@ SweepPoint point_of(const results::SweepRecord& record, const results::SweepCase
 SweepPicture sweep_picture(const results::SweepRecord& record) {
   SweepPicture picture;
   picture.title = record.title;
+  picture.verdict = record.verdict;
+  picture.outcome = record.outcome;
   picture.measures = record.measures;
   std::vector<std::string> groups;
   for (const results::SweepCase& one : record.cases) {

@@ -90,8 +90,13 @@ void read_measures(const json& record, PackSummary& pack, Summary& summary) {
     if (!measure.of_packing()) std::visit(Setter{record, measure.key, pack, summary}, measure.member);
   for (const json& peak : record.value("peaks", json::array()))
     summary.peaks.push_back({peak.at(0).get<double>(), peak.at(1).get<double>()});
-  summary.plateau_start = record.at("plateau_window").at(0).get<double>();
-  summary.plateau_end = record.at("plateau_window").at(1).get<double>();
+  summary.measured = record.value("measured", "");
+  const auto strain_in = [&](std::size_t k) {
+    const json& window = record.at("plateau_window");
+    return window.at(k).is_null() ? not_reached : window.at(k).get<double>();
+  };
+  summary.plateau_start = strain_in(0);
+  summary.plateau_end = strain_in(1);
 }
 
 Performance performance_from(const json& record) {
@@ -127,6 +132,7 @@ json to_json(const Summary& summary) {
   json peaks = json::array();
   for (const CurvePeak& peak : summary.peaks) peaks.push_back({peak.strain, peak.stress});
   record["peaks"] = peaks;
+  record["measured"] = summary.measured;
   record["plateau_window"] = {number(summary.plateau_start), number(summary.plateau_end)};
   return record;
 }

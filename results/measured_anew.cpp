@@ -27,20 +27,20 @@ void end_with_last_row(const History& history, Summary& summary) {
 
 }  // namespace
 
-std::optional<Evaluation> measured_anew(const Evaluation& stored, const MeasuringFrame& frame) {
+std::optional<Evaluation> measured_anew(const Evaluation& stored, const MeasuringFrame& frame, double until) {
   const History& full = stored.curve;
   if (stored.status != RunStatus::completed || !full.is_full()) return {};
   Evaluation evaluation = stored;
-  evaluation.curve = full.up_to(frame.until);
+  evaluation.curve = full.up_to(until);
   const History& history = evaluation.curve;
-  if (history.rows() == 0 || std::abs(history.strain_yy.back() - frame.until) > strain_rounding) return {};
+  if (history.rows() == 0 || std::abs(history.strain_yy.back() - until) > strain_rounding) return {};
   if (history.rows() < full.rows()) {
     if (!full.knows_ends() || !(history.peak_passed.back() > 0.0)) return {};
     evaluation.curve.stress_yy.back() = history.stress_before.back();  // no run beyond it: half a mean
     end_with_last_row(history, evaluation.summary);
     evaluation.reason = evaluation.summary.reason;
   }
-  measure_curve(history, frame.plateau_start, frame.plateau_end, frame.reference_area, evaluation.summary);
+  measure_curve(history, frame, evaluation.summary);
   return evaluation;
 }
 

@@ -1,4 +1,5 @@
-// What is here: integrals and crossings of a sampled curve, piecewise linear between rows.
+// What is here: the measures of a curve one by one. What is not: integrals and fits (sampled_curve.h), the search for a
+// plateau (found_plateau.h).
 #include "results/measures.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "results/found_plateau.h"
 #include "results/measure_table.h"
+#include "results/sampled_curve.h"
 
 namespace perfora::results {
 namespace {
@@ -18,74 +21,18 @@ constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau a
 constexpr double smoothing_width = 0.005;     // docs/user/theory.md: the 0.5 %-smoothed stress
 constexpr double rising_fraction = 0.9;       // "only rises": never falls below this share of an earlier stress
 constexpr double recovery_fraction = 0.5;     // of the first peak
+constexpr double rounding = 1e-9;             // the last row sits at the end of the window up to rounding
 constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
 
-/// Value of y at x by linear interpolation; x inside the range.
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto upper = std::upper_bound(x.begin(), x.end(), at);
-  if (upper == x.begin()) return y.front();
-  if (upper == x.end()) return y.back();
-  const auto k = static_cast<std::size_t>(upper - x.begin());
-  const double fraction = (at - x[k - 1]) / (x[k] - x[k - 1]);
-  return y[k - 1] + fraction * (y[k] - y[k - 1]);
-}
-
-/// The curve between two strains: end points interpolated.
-struct Piece {
-  std::vector<double> x, y;
-};
-Piece cut(const std::vector<double>& x, const std::vector<double>& y, double from, double to) {
-  Piece p;
-  p.x.push_back(from);
-  p.y.push_back(interpolate(x, y, from));
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (x[k] > from && x[k] < to) {
-      p.x.push_back(x[k]);
-      p.y.push_back(y[k]);
-    }
-  p.x.push_back(to);
-  p.y.push_back(interpolate(x, y, to));
-  return p;
-}
-
-double integral(const Piece& p) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < p.x.size(); ++k) sum += 0.5 * (p.y[k] + p.y[k - 1]) * (p.x[k] - p.x[k - 1]);
-  return sum;
-}
-
-/// Integral of |y| exactly for a piecewise linear y.
-double absolute_integral(const Piece& p) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < p.x.size(); ++k) {
-    const double a = p.y[k - 1], b = p.y[k], h = p.x[k] - p.x[k - 1];
-    if (a * b >= 0.0) {
-      sum += 0.5 * (std::fabs(a) + std::fabs(b)) * h;
-    } else {
-      sum += 0.5 * h * (a * a + b * b) / (std::fabs(a) + std::fabs(b));
-    }
+/// Strain from which on the stress stays at or above `level`: 0 where it never was below; NaN where it is below at the
+/// end.
+double above_for_good(const std::vector<double>& strain, const std::vector<double>& stress, double level) {
+  for (std::size_t k = stress.size(); k-- > 0;) {
+    if (stress[k] >= level) continue;
+    if (k + 1 == stress.size()) return nan;
+    return strain[k] + (level - stress[k]) / (stress[k + 1] - stress[k]) * (strain[k + 1] - strain[k]);
   }
-  return sum;
-}
-
-std::vector<double> smoothed(const std::vector<double>& x, const std::vector<double>& y, double width) {
-  std::vector<double> out(y.size());
-  std::size_t low = 0, high = 0;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    while (high < y.size() && x[high] <= x[k] + 0.5 * width) sum += y[high++];
-    while (x[low] < x[k] - 0.5 * width) sum -= y[low++];
-    out[k] = sum / static_cast<double>(high - low);
-  }
-  return out;
-}
-
-/// Strain where the stress last crosses `level` upwards; NaN when it never does.
-double last_upward_crossing(const std::vector<double>& strain, const std::vector<double>& stress, double level) {
-  for (std::size_t k = stress.size(); k-- > 1;)
-    if (stress[k - 1] < level && stress[k] >= level)
-      return strain[k - 1] + (level - stress[k - 1]) / (stress[k] - stress[k - 1]) * (strain[k] - strain[k - 1]);
-  return nan;
+  return 0.0;
 }
 
 /// Strain of the largest energy efficiency: absorbed energy over (stress reached x 1), Li et al.'s definition with the
@@ -103,8 +50,8 @@ double largest_efficiency_strain(const std::vector<double>& strain, const std::v
   return at;
 }
 
-/// Strain of the first row from which on `stress` never falls below `rising_share` of what it was; NaN where it never
-/// falls, or still does at the end.
+/// Strain of the first row from which on `stress` never falls below `rising_fraction` of what it was; NaN where it
+/// never falls, or still does at the end.
 double only_rising_from(const std::vector<double>& strain, const std::vector<double>& stress) {
   double later = std::numeric_limits<double>::infinity();
   for (std::size_t k = stress.size(); k-- > 0;) {
@@ -199,20 +146,43 @@ void reset_curve_measures(Summary& summary) {
   summary.peaks.clear();
 }
 
-}  // namespace
+/// From here on the smoothed stress holds nothing of the first peak; the start where there was none.
+double behind_first_peak(const Summary& summary, const MeasuringFrame& frame) {
+  return std::isnan(summary.first_peak_strain) ? 0.0 : summary.first_peak_strain + 0.5 * frame.options.smoothing;
+}
 
-void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
-                   Summary& summary) {
+/// Largest stress from the start to `end`, the first peak included.
+double largest_stress_until(const History& history, const Summary& summary, double end) {
+  double largest = interpolate(history.strain_yy, history.stress_yy, end);
+  for (std::size_t k = 0; k < history.rows() && history.strain_yy[k] <= end; ++k)
+    largest = std::max(largest, history.stress_yy[k]);
+  if (summary.first_peak_strain <= end) largest = std::max(largest, summary.first_peak_stress);
+  return largest;
+}
+
+/// Root of the mean over the window of ln(stress/target)^2, with the floor under the stress.
+double target_distance(const std::vector<double>& strain, const std::vector<double>& smooth,
+                       const MeasuringFrame& frame, double start, double end) {
+  std::vector<double> at, wanted;
+  for (std::size_t k = 0; k + 1 < frame.target_curve.size(); k += 2) {
+    at.push_back(frame.target_curve[k]);
+    wanted.push_back(frame.target_curve[k + 1]);
+  }
+  if (wanted.empty() && !(frame.target_stress > 0.0)) return nan;
+  CurvePiece window = cut(strain, smooth, start, end);
+  for (std::size_t k = 0; k < window.x.size(); ++k) {
+    const double target = wanted.empty() ? frame.target_stress : interpolate(at, wanted, window.x[k]);
+    const double off = std::log(std::max(window.y[k], frame.floor * target) / target);
+    window.y[k] = off * off;
+  }
+  return std::sqrt(integral(window) / (end - start));
+}
+
+/// What is asked of the whole curve, whatever the plateau.
+void measure_whole_curve(const History& history, const MeasuringFrame& frame, const std::vector<double>& smooth,
+                         Summary& summary) {
   const auto& strain = history.strain_yy;
   const auto& stress = history.stress_yy;
-  summary.plateau_start = plateau_start;
-  summary.plateau_end = plateau_end;
-  reset_curve_measures(summary);
-  if (strain.size() < 2) return;
-  const double work_end = std::min(plateau_end, strain.back());
-  const double work = interpolate(strain, history.external_work, work_end);
-  summary.cundall_fraction = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
-
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     double smallest = nan;
     for (std::size_t k = 0; k < strain.size(); ++k)
@@ -221,31 +191,69 @@ void measure_curve(const History& history, double plateau_start, double plateau_
         smallest = stress[k];
     summary.stress_drop_ratio = smallest / summary.first_peak_stress;
   }
-  const std::vector<double> smooth = smoothed(strain, stress, smoothing_width);
-  summary.only_rising_strain = only_rising_from(strain, smooth);
+  const std::vector<double> half_smooth = smoothed(strain, stress, smoothing_width);
+  summary.only_rising_strain = only_rising_from(strain, half_smooth);
   if (!std::isnan(summary.first_peak_strain) && summary.first_peak_stress > 0.0) {
     // Smoothing carries the first peak half its width on.
     const double behind = summary.first_peak_strain + 0.5 * smoothing_width;
-    summary.recovery_strain = recovery_strain(strain, smooth, behind, recovery_fraction * summary.first_peak_stress);
-    summary.peaks = peaks_behind(strain, smooth, behind, peak_prominence * summary.first_peak_stress);
+    summary.recovery_strain =
+        recovery_strain(strain, half_smooth, behind, recovery_fraction * summary.first_peak_stress);
+    summary.peaks = peaks_behind(strain, half_smooth, behind, peak_prominence * summary.first_peak_stress);
     summary.intermediate_peaks = static_cast<double>(summary.peaks.size());
   }
   summary.efficiency_strain = largest_efficiency_strain(strain, stress);
+  const double behind = behind_first_peak(summary, frame);
+  if (const auto found = found_plateau(strain, smooth, behind, summary.efficiency_strain, frame.options)) {
+    summary.found_plateau_start = found->start;
+    summary.found_plateau_end = found->end;
+    summary.found_plateau_length = found->end - found->start;
+    summary.found_plateau_stress =
+        integral(cut(strain, stress, found->start, found->end)) / (found->end - found->start);
+  } else {
+    summary.found_plateau_length = 0.0;
+  }
+  if (frame.cap > 0.0) {
+    const double above = above_for_good(strain, stress, frame.cap);
+    summary.stroke_at_cap = std::isnan(above) ? strain.back() : above;
+  }
+  if (frame.cap_strain > 0.0 && strain.back() >= frame.cap_strain - rounding)
+    summary.stress_until = largest_stress_until(history, summary, frame.cap_strain);
+}
 
-  constexpr double rounding = 1e-9;  // the last row sits at the end of the window up to rounding
-  if (strain.back() < plateau_end - rounding) return;
-  const Piece window = cut(strain, stress, plateau_start, std::min(plateau_end, strain.back()));
-  const double width = plateau_end - plateau_start, total = integral(window);
+/// What is asked of the plateau between two strains that the history holds.
+void measure_plateau(const History& history, const MeasuringFrame& frame, const std::vector<double>& smooth,
+                     double start, double end, Summary& summary) {
+  const auto& strain = history.strain_yy;
+  const auto& stress = history.stress_yy;
+  const CurvePiece window = cut(strain, stress, start, std::min(end, strain.back()));
+  const double width = end - start, total = integral(window);
   summary.plateau_stress = total / width;
   summary.minimum_stress_in_window = *std::min_element(window.y.begin(), window.y.end());
-  Piece deviation = window;
+  CurvePiece deviation = window;
   for (double& y : deviation.y) y -= summary.plateau_stress;
   summary.undulation = total != 0.0 ? absolute_integral(deviation) / total : nan;
+  const CurvePiece smooth_window = cut(strain, smooth, start, std::min(end, strain.back()));
+  const auto [smallest, largest] = std::minmax_element(smooth_window.y.begin(), smooth_window.y.end());
+  if (summary.plateau_stress > 0.0) {
+    summary.smallest_over_mean = *smallest / summary.plateau_stress;
+    summary.largest_over_mean = *largest / summary.plateau_stress;
+    summary.cap_ratio = largest_stress_until(history, summary, end) / summary.plateau_stress;
+    if (summary.first_peak_stress > 0.0)
+      summary.crush_force_efficiency = summary.plateau_stress / summary.first_peak_stress;
+  }
+  const FittedLine line = fitted_line(window);
+  if (line.at_start > 0.0) summary.slope = line.at_end / line.at_start;
+  const double behind = behind_first_peak(summary, frame);
+  double trough = interpolate(strain, smooth, behind);
+  for (std::size_t k = 0; k < strain.size() && strain[k] <= start; ++k)
+    if (strain[k] > behind) trough = std::min(trough, smooth[k]);
+  summary.trough_stress = trough;
+  summary.target_distance = target_distance(strain, smooth, frame, start, std::min(end, strain.back()));
   const auto change = [&](const std::vector<double>& column) {
-    return interpolate(strain, column, plateau_end) - interpolate(strain, column, plateau_start);
+    return interpolate(strain, column, end) - interpolate(strain, column, start);
   };
   summary.broken_in_window = change(history.broken_bonds);
-  const double swept = width * reference_area;
+  const double swept = width * frame.reference_area;
   summary.damage_stress = change(history.damage) / swept;
   summary.friction_stress = change(history.friction) / swept;
   summary.viscous_stress = change(history.viscous) / swept;
@@ -253,8 +261,31 @@ void measure_curve(const History& history, double plateau_start, double plateau_
   const double duration = change(history.time);
   if (duration > 0.0) summary.impact_stress = summary.impact_stress_per_rate * width / duration;
   if (summary.plateau_stress > 0.0) summary.impact_ratio = summary.impact_stress / summary.plateau_stress;
-  summary.energy_absorbed = interpolate(strain, history.external_work, plateau_end) / reference_area;
-  summary.densification_strain = last_upward_crossing(strain, stress, densification_factor * summary.plateau_stress);
+  summary.energy_absorbed = interpolate(strain, history.external_work, end) / frame.reference_area;
+  summary.densification_strain = above_for_good(strain, stress, densification_factor * summary.plateau_stress);
+}
+
+}  // namespace
+
+void measure_curve(const History& history, const MeasuringFrame& frame, Summary& summary) {
+  const auto& strain = history.strain_yy;
+  summary.plateau_start = frame.options.plateau_start;
+  summary.plateau_end = frame.options.plateau_end;
+  summary.measured = frame.text();
+  reset_curve_measures(summary);
+  if (strain.size() < 2) return;
+  const std::vector<double> smooth = smoothed(strain, history.stress_yy, frame.options.smoothing);
+  measure_whole_curve(history, frame, smooth, summary);
+  if (frame.options.plateau == PlateauPlace::found) {
+    summary.plateau_start = summary.found_plateau_start;
+    summary.plateau_end = summary.found_plateau_end;
+    if (std::isnan(summary.plateau_end)) return;
+  }
+  const double end = summary.plateau_end, work_end = std::min(end, strain.back());
+  const double work = interpolate(strain, history.external_work, work_end);
+  summary.cundall_fraction = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
+  if (strain.back() < end - rounding) return;
+  measure_plateau(history, frame, smooth, summary.plateau_start, end, summary);
 }
 
 }  // namespace perfora::results

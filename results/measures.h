@@ -4,17 +4,15 @@
 #include <string>
 
 #include "results/history.h"
+#include "results/measure_options.h"
 #include "results/summary.h"
 
 namespace perfora::results {
 
-/// Fills plateau_stress, minimum_stress_in_window, undulation, densification and efficiency strain, only_rising_strain,
-/// recovery_strain, the peaks, stress_drop_ratio, energies and impact stress of `summary` from the history
-/// (docs/user/theory.md, "Measures"; ISO 13314 and DIN 50134 for the window and the 1.3 x plateau end). What the
-/// history does not reach is NaN. first_peak_* and impact_stress_per_rate must be set. `reference_area`: of the
-/// undeformed cell, m2.
-void measure_curve(const History& history, double plateau_start, double plateau_end, double reference_area,
-                   Summary& summary);
+/// Fills the measures of the curve (measure_table.cpp, docs/user/theory.md, "Measures") from the history: those of the
+/// plateau within the frame's window or on the found plateau, and those of the whole curve. What the history does not
+/// reach is NaN. first_peak_* and impact_stress_per_rate of `summary` must be set.
+void measure_curve(const History& history, const MeasuringFrame& frame, Summary& summary);
 
 /// The ledger is judged from this strain on: before it the work is too small to divide by.
 inline constexpr double residual_from_strain = 0.002;

@@ -95,6 +95,13 @@ void add_points(StudyRecord& record, const fs::path& file, const json& result) {
   }
 }
 
+void read_window(const json& object, const char* key, StudyRecord& record) {
+  const json window = object.value(key, json());
+  if (!window.is_array() || window.size() != 2 || !window[0].is_number() || !window[1].is_number()) return;
+  record.window_start = window[0].get<double>();
+  record.window_end = window[1].get<double>();
+}
+
 StudyRecord from_results(const fs::path& folder) {
   const json result = json::parse(io::read_file(folder / "result.json"), nullptr, false);
   if (!result.is_object() || result.value("schema", "") != "perfora.optimize/1")
@@ -107,8 +114,11 @@ StudyRecord from_results(const fs::path& folder) {
       fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", result.value("algorithm", ""), replicates,
                   replicates == 1 ? "" : "s", result.value("evaluations", 0), result.value("reason", ""));
   record.target = optional_in(result, "target");
-  const auto window = result.value("plateau_window", std::vector<double>());
-  if (window.size() == 2) record.window_start = window[0], record.window_end = window[1];
+  read_window(result, "plateau_window", record);
+  if (const auto verdict = result.find("verdict"); verdict != result.end()) {
+    record.verdict = verdict->value("text", "");
+    record.outcome = verdict->value("outcome", "");
+  }
   const json plateau = result.value("plateau_stress", json());
   if (plateau.is_object()) {
     record.best_plateau = optional_in(plateau, "mean");
@@ -149,7 +159,10 @@ json to_json(const StudyRecord& record) {
           {"start_plateau_deviation", or_null(record.start_plateau_deviation)},
           {"target", or_null(record.target)},
           {"target_tolerance", or_null(record.target_tolerance)},
-          {"window", {record.window_start, record.window_end}},
+          {"target_curve", curves_json({record.target_curve}).front()},
+          {"window", {or_null(record.window_start), or_null(record.window_end)}},
+          {"verdict", record.verdict},
+          {"outcome", record.outcome},
           {"best_layout", layout_json(record.best_layout)},
           {"start_layout", layout_json(record.start_layout)},
           {"facts", facts}};
@@ -177,8 +190,11 @@ StudyRecord study_record_from_json(const json& object) {
   record.start_plateau_deviation = optional_in(object, "start_plateau_deviation");
   record.target = optional_in(object, "target");
   record.target_tolerance = optional_in(object, "target_tolerance");
-  record.window_start = object.at("window").at(0).get<double>();
-  record.window_end = object.at("window").at(1).get<double>();
+  if (const auto curve = object.find("target_curve"); curve != object.end())
+    record.target_curve = curves_in(json::array({*curve})).front();
+  read_window(object, "window", record);
+  record.verdict = object.value("verdict", "");
+  record.outcome = object.value("outcome", "");
   record.best_layout = layout_in(object.at("best_layout"));
   record.start_layout = layout_in(object.at("start_layout"));
   for (const json& fact : object.at("facts"))

@@ -33,9 +33,11 @@ struct StudyRecord {
   std::vector<Curve> start;
   std::optional<double> best_plateau, best_plateau_deviation;  ///< mean and standard deviation over replicates, Pa
   std::optional<double> start_plateau, start_plateau_deviation;
-  std::optional<double> target;            ///< Pa
-  std::optional<double> target_tolerance;  ///< Pa, half the height of the band
-  double window_start = 0.20, window_end = 0.40;
+  std::optional<double> target;                    ///< Pa
+  std::optional<double> target_tolerance;          ///< Pa, half the height of the band
+  Curve target_curve;                              ///< wished stress over strain, instead of one stress; empty: none
+  std::optional<double> window_start, window_end;  ///< of the plateau; none where each curve has its own
+  std::string verdict, outcome;                    ///< Verdict::text, outcome_name(); empty where nothing is wished
   std::optional<geometry::PerforationLayout> best_layout, start_layout;
   /// Lines beside the best design: name and value as printed ("diameter", "18.2 mm"), and the value of the start design
   /// ("" where it is not shown).

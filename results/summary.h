@@ -42,8 +42,14 @@ struct Summary {
   double final_strain = 0.0;
   double first_peak_stress = not_reached, first_peak_strain = not_reached;
   double stress_drop_ratio = not_reached;
+  std::string measured;                           ///< what the curve was measured by: MeasuringFrame::text()
   double plateau_start = 0.0, plateau_end = 0.0;  ///< the window that the plateau is taken from
   double plateau_stress = not_reached, minimum_stress_in_window = not_reached, undulation = not_reached;
+  double smallest_over_mean = not_reached, largest_over_mean = not_reached, slope = not_reached;
+  double cap_ratio = not_reached, crush_force_efficiency = not_reached, trough_stress = not_reached;
+  double target_distance = not_reached, stroke_at_cap = not_reached, stress_until = not_reached;
+  double found_plateau_start = not_reached, found_plateau_end = not_reached, found_plateau_length = not_reached,
+         found_plateau_stress = not_reached;
   double densification_strain = not_reached, efficiency_strain = not_reached;
   double only_rising_strain = not_reached, recovery_strain = not_reached;
   double intermediate_peaks = not_reached;  ///< number of `peaks`

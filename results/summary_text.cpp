@@ -21,8 +21,19 @@ namespace {
 
 using io::Dimension;
 
+/// What the user reads first, with a line a wish below it.
+std::string verdict_text(const json& object) {
+  const json& verdict = object_in(object, "verdict");
+  if (verdict.empty()) return {};
+  std::string text = fmt::format("Verdict: {}\n", text_in(verdict, "text"));
+  for (const json& wish : list_in(verdict, "wishes"))
+    text += line_text(text_in(wish, "outcome"), text_in(wish, "text"));
+  return text + line_text("note", text_in(verdict, "note"));
+}
+
 std::string head_text(const json& object) {
-  std::string text = fmt::format("{}: {}\n", text_in(object, "status", "?"), text_in(object, "reason"));
+  std::string text = verdict_text(object);
+  text += fmt::format("{}: {}\n", text_in(object, "status", "?"), text_in(object, "reason"));
   std::string seeds;
   for (const auto& [name, value] : object_in(object, "seeds").items())
     if (value.is_number()) seeds += fmt::format("{}{} {}", seeds.empty() ? "" : ", ", name, value.dump());
@@ -110,14 +121,17 @@ std::string finals_text(const json& finals) {
             (std::isfinite(deviation) ? fmt::format(" (deviation {})", io::quantity(deviation, Dimension::stress))
                                       : std::string()));
   }
-  const double gain = number_in(finals, "gain"), error = number_in(finals, "gain_standard_error");
-  if (!std::isfinite(error)) return text;
+  const double gain = number_in(finals, "gain"), interval = number_in(finals, "gain_confidence_95");
+  const double error = number_in(finals, "gain_standard_error");  // all that an older program left
+  if (!std::isfinite(interval) && std::isfinite(error))
+    return text + line_text("gain in score over the start",
+                            io::quantities({gain, error}, Dimension::none, " +- ") + " (standard error)");
+  if (!std::isfinite(interval)) return text;
   const auto significant = finals.find("significant");
   text += line_text("gain in score over the start",
-                    io::quantities({gain, error}, Dimension::none, " +- ") + " (standard error)");
-  return text + line_text("", significant != finals.end() && *significant == true
-                                  ? "more than two standard errors"
-                                  : "not more than two standard errors, so it may be chance");
+                    io::quantities({gain, interval}, Dimension::none, " +- ") + " (95 %, paired)");
+  return text + line_text("", significant != finals.end() && *significant == true ? "a gain beyond its interval"
+                                                                                  : "it may be chance");
 }
 
 std::string optimize_text(const json& object, const KeyDimension& key_dimension) {

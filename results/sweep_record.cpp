@@ -115,6 +115,12 @@ SweepRecord read_ensemble_record(const fs::path& folder) {
   SweepCase& only = record.cases.emplace_back();
   only.number = 1;
   only.label = only.place = record.name;
+  if (fs::exists(folder / "ensemble.json")) {
+    const json result = json::parse(io::read_file(folder / "ensemble.json"), nullptr, false);
+    const json verdict = result.is_object() ? result.value("verdict", json::object()) : json::object();
+    record.verdict = verdict.value("text", "");
+    record.outcome = verdict.value("outcome", "");
+  }
   std::map<int, json> evaluations;  // by replicate
   for (const json& event : journal_events(folder))
     if (event.contains("evaluation"))

@@ -50,6 +50,7 @@ struct SweepRecord {
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
   /// where an older program left them out.
   std::vector<double> plateau_window;
+  std::string verdict, outcome;  ///< of an ensemble whose design wishes something: Verdict::text, outcome_name()
 };
 
 /// Reads a sweep's folder or result.json; without the runs. Throws io::InputError for anything else.

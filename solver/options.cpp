@@ -120,13 +120,11 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("platen_friction", boundary.platen_friction, Dimension::ratio, Range::between(0.0, 10.0),
             "mu of a disc on a platen.")
       .real("wall_friction", boundary.wall_friction, Dimension::ratio, Range::between(0.0, 10.0),
-            "mu of a disc on a side wall.");
-  MeasureOptions& measures = options.measures;
-  schema.section("measures", "What is read from the curve.")
-      .real("plateau_start", measures.plateau_start, Dimension::ratio, Range::between(0.0, 0.9),
-            "Start of the plateau window.")
-      .real("plateau_end", measures.plateau_end, Dimension::ratio, Range::between(0.0, 0.9),
-            "End of the plateau window.");
+            "mu of a disc on a side wall.")
+      .real(
+          "crushed_bottom", boundary.crushed_bottom, Dimension::length, Range::non_negative(),
+          "Height of a band at the bottom that is crushed already: its bonds are not made, and not counted as broken.")
+      .real("crushed_top", boundary.crushed_top, Dimension::length, Range::non_negative(), "The same at the top.");
   OutputOptions& output = options.output;
   schema.section("output", "What a run file holds.")
       .choice("frames", output.frames,
@@ -156,9 +154,6 @@ void validate(const SolverOptions& options, const io::Schema& schema) {
   if (twice_alpha != std::floor(twice_alpha))
     throw io::InputError(schema.origin("material.yield_exponent"), "alpha is not a multiple of 0.5",
                          "allowed are 1, 1.5, 2, ... 16", "take the nearest of them");
-  if (!(options.measures.plateau_start < options.measures.plateau_end))
-    throw io::InputError(schema.origin("measures.plateau_end"), "the plateau window is empty",
-                         "plateau_end must be larger than plateau_start", "raise plateau_end");
   const NoiseOptions& noise = options.noise;
   if (noise.kind != NoiseKind::perlin || noise.mapping != NoiseMapping::linear) return;
   if (perlin_amplitude(noise) >= largest_perlin_amplitude()) {

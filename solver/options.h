@@ -84,12 +84,7 @@ struct BoundaryOptions {
   Sides sides = Sides::periodic;
   double platen_friction = 0.4;
   double wall_friction = 0.0;  ///< none: the walled block then differs from the periodic one by its edges only
-};
-
-/// [measures]
-struct MeasureOptions {
-  double plateau_start = 0.20;  ///< engineering strain
-  double plateau_end = 0.40;
+  double crushed_bottom = 0.0, crushed_top = 0.0;  ///< heights of the ends that are rubble from the start, m
 };
 
 /// [output]
@@ -113,12 +108,11 @@ struct SolverOptions {
   LoadingOptions loading;
   DynamicsOptions dynamics;
   BoundaryOptions boundary;
-  MeasureOptions measures;
   OutputOptions output;
   TestOptions test;
 };
 
-/// Adds [material], [noise], [loading], [dynamics], [boundary], [measures], [output], [test]. A noise amplitude that
+/// Adds [material], [noise], [loading], [dynamics], [boundary], [output], [test]. A noise amplitude that
 /// makes a factor <= 0 is caught by validate().
 void describe(io::Schema& schema, SolverOptions& options);
 

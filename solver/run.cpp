@@ -265,8 +265,9 @@ class Run {
     s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
     s.impact_stress_per_rate = setup_.plan.stress_per_rate;
-    const double area = request_.layout->width * request_.layout->height;
-    results::measure_curve(h, request_.options.measures.plateau_start, request_.options.measures.plateau_end, area, s);
+    results::MeasuringFrame frame = request_.measuring;
+    frame.reference_area = request_.layout->width * request_.layout->height;
+    results::measure_curve(h, frame, s);
     s.broken_bonds = static_cast<std::int64_t>(simulation_->events().size());
     s.broken_in_tension = samples_->broken_in_tension(*simulation_);
     s.broken_in_shear = s.broken_bonds - s.broken_in_tension;

@@ -11,6 +11,7 @@
 #include "geometry/perforation.h"
 #include "io/cancellation.h"
 #include "results/history.h"
+#include "results/measure_options.h"
 #include "results/progress.h"
 #include "results/provenance.h"
 #include "results/summary.h"
@@ -24,6 +25,7 @@ struct RunRequest {
   const geometry::Packing* clipped = nullptr;  ///< discs to bond (Hilbert order)
   const geometry::PerforationLayout* layout = nullptr;
   SolverOptions options;
+  results::MeasuringFrame measuring;  ///< what the curve is measured by; its reference area is that of the layout
   std::uint64_t noise_seed = 1;
   int threads = 1;
   double mean_diameter = 0.0;  ///< <d> of the size law, m: r_H = horizon x this

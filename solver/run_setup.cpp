@@ -6,6 +6,7 @@
 
 #include "geometry/open_area.h"
 #include "io/error.h"
+#include "solver/crushed_bands.h"
 #include "solver/kernels/kernels.h"
 
 namespace perfora::solver {
@@ -64,6 +65,8 @@ RunSetup set_up_run(const RunRequest& request) {
       options.dynamics.step_factor * s.critical_step,
       contact_critical_step(s.masses, s.specimen.packing.radius, options.material, options.dynamics.cundall_damping));
   s.plan = plan_loading(s.loading, options.loading, loaded_block(*request.layout), longest);
+  // Last: masses, step and rate are those of the whole block, as they are of one whose end is crushed later.
+  remove_crushed_bonds(s.network, s.specimen.packing, s.specimen.field, options.boundary);
   return s;
 }
 

@@ -62,6 +62,10 @@ class EnsembleRun final : public Campaign {
     for (const Asked& one : asked_)
       if (const Evaluation* known = answer_for(one.request, one.key, answers())) found.replicates.push_back(*known);
     found.statistics = statistics_of(found.replicates);
+    std::vector<const Evaluation*> judged;
+    for (const Evaluation& one : found.replicates) judged.push_back(&one);
+    const results::Target& target = design_.design().target;
+    if (!judged.empty() && !results::wishes(target).empty()) found.verdict = results::verdict_on(target, judged);
     return found;
   }
 
@@ -157,13 +161,15 @@ json to_json(const Ensemble& ensemble) {
   json runs = json::array();
   for (const Evaluation& evaluation : ensemble.replicates) runs.push_back(to_json(evaluation, false));
   const char* status = results::status_name(ensemble.status);
-  return {{"schema", results::ensemble_schema},
-          {"status", status},
-          {"reason", ensemble.reason},
-          {"results_version", results_version},
-          {"replicates", ensemble.wanted},
-          {"statistics", statistics},
-          {"runs", runs}};
+  json record = {{"schema", results::ensemble_schema},
+                 {"status", status},
+                 {"reason", ensemble.reason},
+                 {"results_version", results_version},
+                 {"replicates", ensemble.wanted},
+                 {"statistics", statistics},
+                 {"runs", runs}};
+  if (ensemble.verdict) record["verdict"] = results::to_json(*ensemble.verdict);
+  return record;
 }
 
 std::string ensemble_csv(const Ensemble& ensemble) {

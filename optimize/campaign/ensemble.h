@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "optimize/evaluate/evaluation.h"
 #include "results/statistic.h"
+#include "results/verdict.h"
 
 namespace perfora::optimize {
 
@@ -33,6 +35,7 @@ struct Ensemble {
   int wanted = 0;
   std::vector<Evaluation> replicates;          ///< finished ones (failed included), by number
   std::vector<results::Statistic> statistics;  ///< over the completed ones, NaN left out
+  std::optional<results::Verdict> verdict;     ///< where the design wishes something and a replicate is finished
 };
 
 /// Evaluates the replicates one after another in this process (their runs take all threads). A killed ensemble goes on

@@ -12,8 +12,7 @@ namespace {
 /// Both answer the same requests.
 bool alike(const Evaluation& a, const Evaluation& b) {
   const results::Summary &first = a.summary, &second = b.summary;
-  return a.status == b.status && first.final_strain == second.final_strain &&
-         first.plateau_start == second.plateau_start && first.plateau_end == second.plateau_end;
+  return a.status == b.status && first.final_strain == second.final_strain && first.measured == second.measured;
 }
 
 }  // namespace
@@ -31,11 +30,10 @@ void Answers::add(const std::string& key, Evaluation evaluation) {
 bool is_answer(const Evaluation& evaluation, const Request& request) {
   if (!request.material_test.empty()) return true;  // Its key says all of it.
   const results::Summary& summary = evaluation.summary;
-  const solver::SolverOptions& options = request.design->solver;
   constexpr double rounding = 1e-9;  // strains of a path are good to rounding
   if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > request.strain() + rounding);
   return std::abs(summary.final_strain - request.strain()) < rounding &&
-         summary.plateau_start == options.measures.plateau_start && summary.plateau_end == options.measures.plateau_end;
+         summary.measured == request.design->measuring_frame().text();
 }
 
 const Evaluation* Answers::measured_anew(const Request& request, const std::string& key) const {
@@ -47,14 +45,12 @@ const Evaluation* Answers::measured_anew(const Request& request, const std::stri
   if (first == last) return nullptr;
   const std::optional<results::History> history = histories_(key);
   if (!history || history->rows() == 0) return nullptr;
-  const Design& design = *request.design;
-  const results::MeasuringFrame frame{design.solver.measures.plateau_start, design.solver.measures.plateau_end,
-                                      request.strain(), design.layout.width * design.layout.height};
+  const results::MeasuringFrame frame = request.design->measuring_frame();
   for (auto it = first; it != last; ++it) {
     Evaluation stored = it->second;
     if (stored.summary.final_strain != history->strain_yy.back()) continue;
     stored.curve = *history;
-    std::optional<Evaluation> anew = results::measured_anew(stored, frame);
+    std::optional<Evaluation> anew = results::measured_anew(stored, frame, request.strain());
     if (!anew || !is_answer(*anew, request)) continue;
     anew->curve = results::coarse_curve(anew->curve);
     return &derived_.emplace(key, std::move(*anew))->second;

@@ -43,7 +43,7 @@ class Answers {
 };
 
 /// Whether an evaluation of the request's key is what the request asks for: its run ended with the same row, and its
-/// plateau was measured over the design's window. A failed one is, unless it failed beyond the strain that is asked
+/// curve was measured as the design says. A failed one is, unless it failed beyond the strain that is asked
 /// for. A material test is one in any case.
 bool is_answer(const Evaluation& evaluation, const Request& request);
 

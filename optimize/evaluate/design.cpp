@@ -27,7 +27,13 @@ void describe(io::Schema& schema, Design& design) {
   geometry::describe(schema, design.layout);
   geometry::describe(schema, design.packing);
   solver::describe(schema, design.solver);
+  results::describe(schema, design.measures);
+  results::describe(schema, design.target);
   describe_seeds(schema, design.seeds);
+}
+
+results::MeasuringFrame Design::measuring_frame() const {
+  return results::measuring_frame(target, measures, layout.width * layout.height);
 }
 
 DesignFile::DesignFile() : design_(std::make_unique<Design>()), schema_(std::make_unique<io::Schema>()) {
@@ -42,6 +48,7 @@ DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std:
   path_ = path;
   io::apply_toml(*schema_, path);
   for (const std::string& text : overrides) schema_->set_override(text);
+  results::load_curve(design_->target);
 }
 
 DesignFile DesignFile::of(const Design& design, const std::string& name) {

@@ -13,6 +13,7 @@
 #include "io/schema.h"
 #include "results/evaluation.h"
 #include "results/provenance.h"
+#include "results/target.h"
 #include "solver/options.h"
 
 namespace perfora::optimize {
@@ -34,10 +35,15 @@ struct Design {
   geometry::LayoutOptions layout;
   geometry::PackingOptions packing;
   solver::SolverOptions solver;
+  results::MeasureOptions measures;
+  results::Target target;
   Seeds seeds;
+
+  /// What the curve of this design is measured by.
+  results::MeasuringFrame measuring_frame() const;
 };
 
-/// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [measures] [output] [seeds].
+/// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [output] [measures] [target] [seeds].
 void describe(io::Schema& schema, Design& design);
 
 /// What a design is checked for: a compression, or its packing and elastic response alone.

@@ -42,11 +42,12 @@ std::string size_text(double width, double height) {
 
 /// Refuses a hopeless number of holes before any is placed: n points in a periodic cell of area A have two nearer than
 /// sqrt(2 A/(sqrt(3) n)) (densest lattice packing in the plane: Thue), so the thinnest wall is below that minus the
-/// diameter. Of unequal holes the two nearest may be small ones: those are left to make_layout.
+/// diameter. Of unequal holes the two nearest may be small ones, and long ones may lie side by side: those are left to
+/// make_layout.
 void check_hole_count(const Design& design, const io::Schema& schema, double horizon_radius) {
   const geometry::LayoutOptions& layout = design.layout;
   const std::int64_t holes = geometry::hole_count(layout);
-  if (holes <= 0 || !geometry::equal_holes(layout.family)) return;
+  if (holes <= 0 || !geometry::equal_circles(layout)) return;
   const double area = layout.width * layout.height;
   const double closest = std::sqrt(2.0 * area / (std::numbers::sqrt3 * static_cast<double>(holes)));
   if (closest - layout.diameter >= horizon_radius) return;
@@ -142,31 +143,52 @@ void check_final_height(const Design& design, const io::Schema& schema, double l
                          "stop earlier or take a higher cell");
 }
 
+void check_crushed_ends(const Design& design, const io::Schema& schema) {
+  const solver::BoundaryOptions& boundary = design.solver.boundary;
+  const double crushed = boundary.crushed_bottom + boundary.crushed_top;
+  if (crushed < design.layout.height) return;
+  throw io::InputError(schema.origin(boundary.crushed_bottom >= boundary.crushed_top ? "boundary.crushed_bottom"
+                                                                                     : "boundary.crushed_top"),
+                       fmt::format("the crushed ends, {} together, leave nothing of a cell {} high",
+                                   length_text(crushed), length_text(design.layout.height)),
+                       "less than the height of the cell", "lower boundary.crushed_bottom or boundary.crushed_top");
+}
+
 std::string pair_text(const geometry::ThinnestWall& wall) {
   if (wall.first == wall.second) return fmt::format("hole {} and its periodic image", wall.first + 1);
   return fmt::format("holes {} and {}", wall.first + 1, wall.second + 1);
 }
 
-void check_walls(const geometry::PerforationLayout& layout, const io::Schema& schema, double horizon_radius,
-                 std::vector<std::string>& warnings) {
+/// The largest mean disc diameter at which a wall is `horizons` bond radii thick, rounded down to three digits.
+double diameter_for(double wall, double horizons, const Design& design) {
+  const double exact = wall / (horizons * design.solver.material.horizon);
+  const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+  return std::floor(exact / digit) * digit;
+}
+
+void check_walls(const geometry::PerforationLayout& layout, const Design& design, const io::Schema& schema,
+                 double horizon_radius, std::vector<std::string>& warnings) {
   if (layout.perforations.empty()) return;
   const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
   constexpr double rounding = 1e-9;
   if (wall.thickness < (1.0 - rounding) * horizon_radius)
     throw io::InputError(
-        schema.origin("layout.diameter"),
+        schema.origin(geometry::size_key(design.layout)),
         fmt::format("the thinnest wall, {} between {}, is thinner than the horizon of {}, so "
                     "bonds would span it",
                     length_text(wall.thickness), pair_text(wall), length_text(horizon_radius)),
         "at least " + length_text(horizon_radius),
-        "take smaller or fewer holes, smaller discs (packing.mean_diameter) or a smaller material.horizon; a random "
-        "layout keeps walls of layout.minimum_wall");
+        fmt::format("take smaller or fewer holes, discs of a mean diameter of at most {} (packing.mean_diameter) or a "
+                    "smaller material.horizon; a random layout keeps walls of layout.minimum_wall",
+                    length_text(diameter_for(wall.thickness, 1.0, design))));
   if (wall.thickness < 2.0 * horizon_radius)
     warnings.push_back(
         fmt::format("the thinnest wall, {} between {}, is thinner than two horizons ({}): every disc in "
                     "it feels an edge, so "
-                    "it is softer and weaker than the material; smaller discs or thicker walls give truer results",
-                    warned_length(wall.thickness), pair_text(wall), warned_length(2.0 * horizon_radius)));
+                    "it is softer and weaker than the material; a packing.mean_diameter of at most {} or thicker walls "
+                    "give truer results",
+                    warned_length(wall.thickness), pair_text(wall), warned_length(2.0 * horizon_radius),
+                    warned_length(diameter_for(wall.thickness, 2.0, design))));
 }
 
 void warn_about_holes(const geometry::PerforationLayout& layout, const Design& design,
@@ -178,6 +200,29 @@ void warn_about_holes(const geometry::PerforationLayout& layout, const Design& d
         fmt::format("the smallest hole, {}, is smaller than the largest disc, {}: it may take "
                     "no disc away",
                     warned_length(smallest), warned_length(design.packing.maximum_diameter)));
+}
+
+/// Keys of [layout] that somebody set and that the holes do not depend on: of another family, or without the key that
+/// switches them on.
+void warn_about_idle_keys(const Design& design, const io::Schema& schema, std::vector<std::string>& warnings) {
+  const auto holes_of = [&](const geometry::LayoutOptions& layout) {
+    return geometry::place_perforations(layout, design.seeds.effective(0).layout).perforations;
+  };
+  std::vector<geometry::Perforation> own;
+  for (const io::Key& key : schema.keys()) {
+    const std::string name = key.full_name();
+    if (key.section != "layout" || name == "layout.minimum_wall" || key.at_default()) continue;
+    if (schema.origin(name).file == "default") continue;
+    if (own.empty()) own = holes_of(design.layout);
+    DesignFile without(design);
+    try {
+      without.schema().set(name, DesignFile().schema().at(name).get(), {});
+      if (holes_of(without.design().layout) != own) continue;
+    } catch (const io::InputError&) {
+      continue;  // it takes part in saying what a hole is
+    }
+    warnings.push_back(fmt::format("{} has no effect: the holes are the same without it", name));
+  }
 }
 
 void warn_about_resolution(const Design& design, double mean_diameter, std::vector<std::string>& warnings) {
@@ -219,11 +264,12 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
 
 void warn_about_window(const Design& design, std::vector<std::string>& warnings) {
   const double until = design.solver.loading.until;
-  if (until >= design.solver.measures.plateau_end) return;
+  const results::MeasureOptions measures = results::with_window_of(design.target, design.measures);
+  if (measures.plateau == results::PlateauPlace::found || until >= measures.plateau_end) return;
   warnings.push_back(
       fmt::format("the run ends at strain {:.4g}, before the end of the plateau window at {:.4g}: plateau_stress "
                   "and what follows from it will be null",
-                  until, design.solver.measures.plateau_end));
+                  until, measures.plateau_end));
 }
 
 std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose) {
@@ -235,10 +281,15 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   check_cell_against_discs(design, schema, mean_diameter, horizon_radius);
   if (purpose == Purpose::run) check_final_height(design, schema, sizes.largest, horizon_radius);
   check_hole_count(design, schema, horizon_radius);
+  check_crushed_ends(design, schema);
   const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &schema);
-  check_walls(layout, schema, horizon_radius, warnings);
+  check_walls(layout, design, schema, horizon_radius, warnings);
   solver::validate(design.solver, schema);
+  results::validate(design.measures, schema);
+  results::validate(design.target, design.measures, schema);
+  for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);
+  warn_about_idle_keys(design, schema, warnings);
   warn_about_resolution(design, mean_diameter, warnings);
   if (purpose == Purpose::run) warn_about_window(design, warnings);
   return warnings;

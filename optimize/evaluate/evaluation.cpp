@@ -14,6 +14,7 @@
 #include "optimize/evaluate/packing_cache.h"
 #include "results/file_parts.h"
 #include "results/formats.h"
+#include "results/verdict.h"
 #include "solver/bond_network.h"
 
 namespace perfora::optimize {
@@ -97,6 +98,7 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
   request.layout = &packed.layout;
   request.periodic = &packed.periodic;
   request.options = file.design().solver;
+  request.measuring = file.design().measuring_frame();
   request.noise_seed = seeds.noise;
   request.threads = options.threads;
   request.mean_diameter = mean_diameter_of(file, packed.periodic);
@@ -183,6 +185,14 @@ std::vector<std::string> validity_warnings(const Evaluation& evaluation, const s
   return warnings;
 }
 
+nlohmann::json evaluation_record(const DesignFile& design, const Evaluation& evaluation) {
+  nlohmann::json record = to_json(evaluation, false);
+  const results::Target& target = design.design().target;
+  const Evaluation* const one = &evaluation;
+  if (!results::wishes(target).empty()) record["verdict"] = results::to_json(results::verdict_on(target, {&one, 1}));
+  return record;
+}
+
 void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate) {
   EvaluateOptions options;
   options.packing_file = packing_file;
@@ -224,7 +234,7 @@ Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& opti
   }
   solver::RunRequest request = run_request(design, packed, options, seeds);
   request.summary = [&](const solver::Response& response) {
-    return to_json(evaluation_of(response, packed.summary, seeds, replicate), false);
+    return evaluation_record(design, evaluation_of(response, packed.summary, seeds, replicate));
   };
   solver::Response response = solver::run_compression(request);
   Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate);

@@ -68,6 +68,10 @@ results::Provenance provenance_of(const DesignFile& design, const Seeds::Effecti
 /// design's.
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading);
 
+/// The record of one evaluation of `design`, without its curve, with the verdict where the design wishes something
+/// (one block shows little: results/verdict.h). schema "perfora.evaluate/1".
+nlohmann::json evaluation_record(const DesignFile& design, const Evaluation& evaluation);
+
 /// Throws io::InputError unless `packing_file` holds the periodic packing that `design` and `replicate` ask for; what
 /// --packing is checked with before work starts.
 void require_packing_file(const DesignFile& design, const std::filesystem::path& packing_file, int replicate);

@@ -143,9 +143,10 @@ DesignFile material_sample(const DesignFile& design) {
   options.layout.family = geometry::LayoutFamily::none;
   // Keys of a compression that a test does not look at must not get in its way.
   options.solver.boundary = {};
-  options.solver.measures = {};
+  options.measures = {};
+  options.target = {};
   options.solver.output = {};
-  options.solver.loading.until = options.solver.measures.plateau_end;
+  options.solver.loading.until = options.measures.plateau_end;
   if (!options.packing.file.empty()) return sample;
   const double size = options.solver.test.size;
   const double least = std::max(fewest_discs_across, fewest_horizons_across * options.solver.material.horizon) *

@@ -19,8 +19,9 @@ namespace {
 using nlohmann::json;
 
 /// Keys, and sections (with a dot behind), of a design that do not change the path of a run.
-constexpr std::array<std::string_view, 7> beside_the_path = {
+constexpr std::array<std::string_view, 8> beside_the_path = {
     "measures.",       // read from the finished curve
+    "target.",         // wished of it
     "material_test.",  // tests of the solid material
     "loading.until",   // how far: the path up to there is the same
     "output.frames",   // frames and checkpoints have no side effect;

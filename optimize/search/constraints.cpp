@@ -7,6 +7,7 @@
 
 #include "geometry/layout.h"
 #include "geometry/wall.h"
+#include "io/text.h"
 
 namespace perfora::optimize {
 namespace {
@@ -67,6 +68,14 @@ std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFi
 std::vector<std::string> constraint_names(const ConstraintKeys& keys) {
   if (keys.porosity.size() == 2) return {"thinnest_wall", "lowest porosity", "highest porosity"};
   return {"thinnest_wall"};
+}
+
+std::vector<std::string> in_words(const ConstraintKeys& keys, const Design& design) {
+  std::vector<std::string> lines{"thinnest wall: at least " +
+                                 io::quantity(wanted_wall(keys, design), io::Dimension::length)};
+  if (keys.porosity.size() == 2)
+    lines.push_back("porosity: " + io::quantities(keys.porosity, io::Dimension::ratio, " to "));
+  return lines;
 }
 
 double violation(std::span<const double> values) {

@@ -36,6 +36,8 @@ LayoutMeasure measure_layout(const DesignFile& design);
 std::vector<double> constraint_values(const ConstraintKeys& keys, const DesignFile& design,
                                       const LayoutMeasure& measure);
 std::vector<std::string> constraint_names(const ConstraintKeys& keys);
+/// What candidates of `design` must keep, a line each.
+std::vector<std::string> in_words(const ConstraintKeys& keys, const Design& design);
 
 /// Sum of the positive entries; 0: all are kept. A border is kept up to 1e-9.
 double violation(std::span<const double> values);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
+#include "results/interval.h"
+#include "results/statistic.h"
+
 namespace perfora::optimize {
 namespace {
-
-/// Gain is called real beyond this many standard errors.
-constexpr double significance = 2.0;
 
 SearchStage stage_of(const Study& study) {
   SearchStage stage;
@@ -129,16 +129,16 @@ struct Driver::View {
   static void compare(Finals& finals) {
     finals.pairs = static_cast<int>(finals.best_scores.size());
     if (finals.pairs == 0) return;
-    const double n = finals.pairs;
     std::vector<double> gains;
     for (std::size_t k = 0; k < finals.best_scores.size(); ++k)
       gains.push_back(finals.start_scores[k] - finals.best_scores[k]);
-    for (const double gain : gains) finals.gain += gain / n;
+    const results::Statistic gain = results::statistic_of({}, gains);
+    finals.gain = gain.mean;
     if (finals.pairs < 2) return;
-    double squares = 0.0;
-    for (const double gain : gains) squares += (gain - finals.gain) * (gain - finals.gain);
-    finals.gain_error = std::sqrt(squares / (n - 1.0) / n);
-    finals.significant = finals.pairs == finals.replicates && finals.gain > significance * finals.gain_error;
+    finals.gain_error = gain.standard_deviation / std::sqrt(static_cast<double>(finals.pairs));
+    finals.gain_interval = gain.confidence_95;
+    finals.significant = finals.pairs == finals.replicates && finals.pairs >= results::fewest_replicates &&
+                         finals.gain > finals.gain_interval;
   }
 
   std::string end_reason() const {

@@ -23,8 +23,9 @@ struct Finals {
   std::vector<double> best_scores, start_scores;  ///< of single simulations (no spread term), one a pair
   double gain = 0.0;                              ///< mean of start score - best score
   double gain_error = 0.0;                        ///< its standard error; 0 with fewer than two pairs
-  bool significant = false;                       ///< gain > 2 standard errors, with every pair complete
-  Score best, start;                              ///< over the fresh seeds, spread included
+  double gain_interval = 0.0;                     ///< half width of its 95 % interval (Student's t)
+  bool significant = false;  ///< gain > gain_interval, with every pair complete and three pairs at least
+  Score best, start;         ///< over the fresh seeds, spread included
 };
 
 /// What there is to do and what is known.

@@ -4,78 +4,118 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/statistic.h"
+
 namespace perfora::optimize {
 namespace {
 
-struct Moments {
-  double mean = 0.0, std = 0.0;
-};
-
-Moments moments(const std::vector<double>& values) {
-  Moments result;
-  if (values.empty()) return result;
-  const double n = static_cast<double>(values.size());
-  for (const double value : values) result.mean += value / n;
-  if (values.size() < 2) return result;
-  double squares = 0.0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  result.std = std::sqrt(squares / (n - 1.0));
-  return result;
-}
+using results::Measure;
+using results::Target;
+using results::Term;
 
 double square(double value) {
   return value * value;
 }
 
-double weighted(double weight, double value) {
-  return weight > 0.0 ? weight * square(value) : 0.0;
+/// What a measure counts that no replicate reached.
+double worst_term(const Target& target) {
+  return square(std::log(target.floor));
+}
+
+/// The term of one replicate for a measure of value x; `level` is the wished stress.
+double term_of(const Measure& measure, double x, double level, const Target& target) {
+  if (std::isnan(x)) return worst_term(target);
+  const double relative = std::max(x / level, target.floor);
+  switch (measure.term) {
+    case Term::none:
+      return 0.0;
+    case Term::square:
+      return square(x);
+    case Term::logarithm:
+      return square(std::log(std::max(x, target.floor)));
+    case Term::logarithm_above:
+      return square(std::max(0.0, std::log(relative)));
+    case Term::logarithm_below:
+      return square(std::min(0.0, std::log(relative)));
+    case Term::shortfall:
+      return square(1.0 - x);
+  }
+  return 0.0;
+}
+
+/// (ln(x/bound))^2 beyond the nearer bound, 0 within.
+double excess_of(const results::Wish& wish, double x, const Target& target) {
+  if (std::isnan(x)) return worst_term(target);
+  if (x < wish.low) return square(std::log(std::max(x / wish.low, target.floor)));
+  if (x > wish.high) return wish.high > 0.0 ? square(std::log(x / wish.high)) : worst_term(target);
+  return 0.0;
+}
+
+std::vector<double> values_of(const Measure& measure, const std::vector<const Evaluation*>& runs) {
+  std::vector<double> values;
+  for (const Evaluation* run : runs) values.push_back(results::value_of(measure, *run));
+  return values;
+}
+
+double mean_of(const Measure& measure, const std::vector<const Evaluation*>& runs) {
+  const std::vector<double> values = values_of(measure, runs);
+  if (!values.empty() && std::isinf(values.front())) return values.front();  // The wall of a block without holes.
+  return results::statistic_of({}, values).mean;
+}
+
+double weighted_terms(const Target& target, const std::vector<const Evaluation*>& runs) {
+  const bool wanted = target.plateau_stress > 0.0 || target.has_curve();
+  double sum = 0.0;
+  for (std::size_t k = 0; k < results::measures().size(); ++k) {
+    const Measure& measure = results::measures()[k];
+    if (!(target.weights[k] > 0.0) || (!wanted && std::string_view(measure.key) == "target_distance")) continue;
+    for (const Evaluation* run : runs) {
+      const double level = target.level(run->summary.plateau_start, run->summary.plateau_end);
+      sum += target.weights[k] * term_of(measure, results::value_of(measure, *run), level, target) /
+             static_cast<double>(runs.size());
+    }
+  }
+  return sum;
+}
+
+double broken_limits(const Target& target, const std::vector<const Evaluation*>& runs) {
+  double sum = 0.0;
+  for (const results::Wish& wish : results::limits(target))
+    sum += excess_of(wish, mean_of(*wish.measure, runs), target);
+  return target.weight_limits * sum;
 }
 
 }  // namespace
 
-void describe(io::Schema& schema, TargetKeys& keys) {
-  auto section = schema.section("target", "What the search is after, and what its score adds up.");
-  section.real("plateau_stress", keys.plateau_stress, io::Dimension::stress, io::Range::non_negative(),
-               "Wanted mean stress over the window");
-  section.real_list("window", keys.window, io::Dimension::ratio, io::Range::between(0.0, 1.0),
-                    "Start and end of the window in engineering strain");
-  section.real("weight_std", keys.weight_std, io::Dimension::none, io::Range::non_negative(),
-               "Weight of the spread between replicates, (std/target)^2");
-  section.real("weight_undulation", keys.weight_undulation, io::Dimension::none, io::Range::non_negative(),
-               "Weight of the undulation within the window, squared");
-  section.real("weight_peak", keys.weight_peak, io::Dimension::none, io::Range::non_negative(),
-               "Weight of a first peak above the target, ((peak - target)/target)^2");
-}
-
 bool usable(const Evaluation& evaluation) {
-  return evaluation.status == results::RunStatus::completed && std::isfinite(evaluation.summary.plateau_stress);
+  const bool wherever = evaluation.summary.measured.starts_with("found");
+  return evaluation.status == results::RunStatus::completed &&
+         (wherever || std::isfinite(evaluation.summary.plateau_stress));
 }
 
-Score score_of(const TargetKeys& target, std::span<const Evaluation* const> replicates) {
+Score score_of(const Target& target, std::span<const Evaluation* const> replicates) {
   Score score;
-  std::vector<double> plateaus, undulations, peaks;
+  std::vector<const Evaluation*> runs;
   for (const Evaluation* evaluation : replicates) {
     ++score.replicates;
-    if (!usable(*evaluation)) {
-      if (score.failed++ == 0)
-        score.reason = evaluation->reason.empty() ? "no plateau in the window" : evaluation->reason;
-      continue;
-    }
-    plateaus.push_back(evaluation->summary.plateau_stress);
-    if (std::isfinite(evaluation->summary.undulation)) undulations.push_back(evaluation->summary.undulation);
-    if (std::isfinite(evaluation->summary.first_peak_stress)) peaks.push_back(evaluation->summary.first_peak_stress);
+    if (usable(*evaluation))
+      runs.push_back(evaluation);
+    else if (score.failed++ == 0)
+      score.reason = evaluation->reason.empty() ? "no plateau in the window" : evaluation->reason;
   }
-  const Moments plateau = moments(plateaus);
-  score.plateau_mean = plateau.mean;
-  score.plateau_std = plateau.std;
-  score.undulation_mean = moments(undulations).mean;
-  score.first_peak_mean = moments(peaks).mean;
+  const auto statistic = [&](const char* key) {
+    return results::statistic_of({}, values_of(*results::measure_called(key), runs));
+  };
+  const auto or_zero = [](double value) { return std::isfinite(value) ? value : 0.0; };
+  const results::Statistic plateau = statistic("plateau_stress");
+  score.plateau_mean = or_zero(plateau.mean);
+  score.plateau_std = or_zero(plateau.standard_deviation);
+  score.undulation_mean = or_zero(statistic("undulation").mean);
+  score.first_peak_mean = or_zero(statistic("first_peak_stress").mean);
+  for (const Measure* measure : results::recorded_measures(target)) score.recorded.push_back(mean_of(*measure, runs));
   score.valid = score.failed == 0 && score.replicates > 0;
   if (!score.valid) return score;
-  const double aim = target.plateau_stress;
-  const double value = square((plateau.mean - aim) / aim) + weighted(target.weight_std, plateau.std / aim) +
-                       weighted(target.weight_undulation, score.undulation_mean) +
-                       weighted(target.weight_peak, std::max(0.0, score.first_peak_mean - aim) / aim);
+  const double value = weighted_terms(target, runs) + broken_limits(target, runs);
   score.value = std::isfinite(value) ? std::min(value, largest_score) : largest_score;
   return score;
 }

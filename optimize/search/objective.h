@@ -1,26 +1,16 @@
-// What is here: the score of a candidate: how far its plateau lies from the target, averaged over replicates.
-// What is not: constraints on the layout (constraints.h), the search.
+// What is here: the score of a candidate: how far its curves lie from what is wished, averaged over replicates.
+// What is not: wishes (results/target.h), whether they are met (results/verdict.h), constraints on the layout
+// (constraints.h), the search.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/schema.h"
 #include "optimize/evaluate/evaluation.h"
+#include "results/target.h"
 
 namespace perfora::optimize {
-
-/// [target] of a study.
-struct TargetKeys {
-  double plateau_stress = 0.0;                ///< Pa; must be given
-  std::vector<double> window = {0.20, 0.40};  ///< engineering strain over which the plateau is measured
-  double weight_std = 1.0;                    ///< w_std
-  double weight_undulation = 0.0;             ///< w_undulation
-  double weight_peak = 0.0;                   ///< w_peak
-};
-
-void describe(io::Schema& schema, TargetKeys& keys);
 
 /// A candidate with any failed replicate scores this: worse than every candidate that could be simulated, better than
 /// one that breaks a constraint.
@@ -37,14 +27,17 @@ struct Score {
          plateau_std = 0.0;  ///< Pa, over the replicates that gave one; std with n - 1, 0 for one replicate
   double undulation_mean = 0.0;
   double first_peak_mean = 0.0;  ///< Pa
+  std::vector<double> recorded;  ///< means of results::recorded_measures(target), NaN where none was reached
 };
 
-/// score = ((mean plateau - target)/target)^2 + w_std (std/target)^2 + w_undulation (mean undulation)^2 + w_peak
-/// (max(0, mean first peak - target)/target)^2, cut at `largest_score`. Terms whose weight is 0 are left out.
+/// Sum over the measures of weight x mean over the replicates of the measure's term (results::Term), plus
+/// weight.limits x (ln(mean/limit))^2 of every limit that is not kept, cut at `largest_score`. The terms belong to each
+/// replicate's own curve. A stress or ratio below target.floor (of the target, of 1) counts as that; a measure that was
+/// not reached counts as (ln floor)^2. Source: docs/user/theory.md, "Score".
 /// `replicates` holds no null pointer; empty: a failure.
-Score score_of(const TargetKeys& target, std::span<const Evaluation* const> replicates);
+Score score_of(const results::Target& target, std::span<const Evaluation* const> replicates);
 
-/// Whether an evaluation gave a plateau.
+/// Whether an evaluation can be scored: completed, with a plateau where one is measured within a window.
 bool usable(const Evaluation& evaluation);
 
 }  // namespace perfora::optimize

@@ -13,6 +13,7 @@
 #include "optimize/campaign/table_file.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_arms.h"
+#include "results/interval.h"
 
 namespace perfora::optimize {
 namespace {
@@ -97,9 +98,7 @@ struct Reader {
     if (study.keys.maxeval < 1)
       throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
                            "add maxeval = 24 under [study]; most algorithms never stop by themselves");
-    if (!(study.target.plateau_stress > 0.0))
-      throw io::InputError(origin("target.plateau_stress"), "the target is missing or zero", "a stress above 0",
-                           "add plateau_stress = \"0.2 MPa\" under [target]");
+    set_target(start);
     set_window(start);
     check_algorithms();
     const auto& porosity = study.constraints.porosity;
@@ -108,21 +107,37 @@ struct Reader {
                            "[lowest, highest] with 0 <= lowest <= highest", "write for example porosity = [0.2, 0.4]");
   }
 
+  /// What the study does not say of its target, the design does; the design of every candidate then holds all of it.
+  void set_target(DesignFile& start) {
+    results::load_curve(study.target);
+    for (const io::Key& key : schema.keys())
+      if (key.section.starts_with("target") && schema.origin(key.full_name()).file == "default")
+        schema.set(key.full_name(), start.schema().at(key.full_name()).get(), {});
+    start.design().target = study.target;
+    if (!results::is_given(study.target))
+      throw io::InputError(origin("target.plateau_stress"), "nothing is wished",
+                           "a plateau stress, a curve, limits or weights under [target]",
+                           "add plateau_stress = \"0.2 MPa\" under [target]");
+  }
+
   void set_window(DesignFile& start) {
-    const auto& window = study.target.window;
-    if (window.size() != 2 || !(window[0] < window[1]))
-      throw io::InputError(origin("target.window"), "this is not a window of strain",
-                           "[start, end] with 0 <= start < end < 1", "write for example window = [0.2, 0.4]");
-    auto& solver = start.design().solver;
-    solver.measures.plateau_start = window[0];
-    solver.measures.plateau_end = window[1];
-    if (study.keys.until > 0.0) solver.loading.until = study.keys.until;
-    study.fidelities = {{"", changes_without_output(), solver.loading.until}};
-    if (solver.loading.until < window[1])
-      throw io::InputError(origin(study.keys.until > 0.0 ? "study.until" : "target.window"),
-                           fmt::format("the window ends at strain {:g}, the runs end at {:g} before it", window[1],
-                                       solver.loading.until),
-                           "a run at least as long as the window", "raise study.until or shorten target.window");
+    Design& design = start.design();
+    results::validate(study.target, design.measures, schema);
+    design.measures = results::with_window_of(study.target, design.measures);
+    if (study.keys.until > 0.0) design.solver.loading.until = study.keys.until;
+    study.fidelities = {{"", changes_without_output(), design.solver.loading.until}};
+    const auto refuse_beyond = [&](double strain, const char* what, const std::string& key) {
+      if (design.solver.loading.until >= strain) return;
+      throw io::InputError(
+          origin(study.keys.until > 0.0 ? "study.until" : key),
+          fmt::format("{} at strain {:g}, the runs end at {:g} before it", what, strain, design.solver.loading.until),
+          "a run at least as long as the window", fmt::format("raise study.until or lower {}", key));
+    };
+    if (design.measures.plateau == results::PlateauPlace::window)
+      refuse_beyond(design.measures.plateau_end, "the window ends", "target.window");
+    if (!study.target.stress_until.empty())
+      refuse_beyond(study.target.stress_until.front(), "the largest stress is limited up to",
+                    "target.limit.stress_until");
   }
 
   void check_algorithms() {
@@ -161,6 +176,18 @@ struct Reader {
     check("study.refine", study.refiner.get(), study.keys.refine);
   }
 
+  /// The start is compared with the best design; outside the bounds it is no candidate.
+  void warn_about_start() {
+    for (const Variable& variable : study.variables) {
+      const double value = study.start->schema().get_number(variable.key);
+      if (value >= variable.low && value <= variable.high) continue;
+      study.warnings.push_back(fmt::format(
+          "the design to start from has {} = {}, outside the bounds {}: it is compared with, but is no candidate",
+          variable.key, io::quantity(value, variable.dimension),
+          io::quantities({variable.low, variable.high}, variable.dimension, " to ")));
+    }
+  }
+
   void warn() {
     auto& warnings = study.warnings;
     int fewest = study.keys.maxeval;
@@ -173,8 +200,10 @@ struct Reader {
           "one replicate a candidate: the score holds the scatter from packing to packing; final_replicates tells how "
           "much of the "
           "gain is real");
-    if (study.keys.final_replicates < 2)
-      warnings.push_back("final_replicates below 2: nothing will say whether the gain exceeds the noise");
+    if (study.keys.final_replicates < results::fewest_replicates)
+      warnings.push_back(fmt::format("final_replicates below {}: the verdict cannot say that the wish is met",
+                                     results::fewest_replicates));
+    warn_about_start();
   }
 };
 
@@ -215,7 +244,7 @@ DesignFile Study::design_at(const Arm* arm, std::span<const double> values) cons
 std::map<std::string, std::string> Study::resolved() const {
   std::map<std::string, std::string> all;
   StudyKeys own = keys;
-  TargetKeys aim = target;
+  results::Target aim = target;
   ConstraintKeys limits = constraints;
   io::Schema schema;
   describe(schema, own);
@@ -237,7 +266,7 @@ std::map<std::string, std::string> Study::resolved() const {
 std::set<std::string> Study::at_default() const {
   std::set<std::string> names;
   StudyKeys own;
-  TargetKeys aim;
+  results::Target aim;
   ConstraintKeys limits;
   io::Schema schema;  // bound to the defaults, then given what this study has
   describe(schema, own);
@@ -273,7 +302,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
 
 std::string study_reference() {
   StudyKeys keys;
-  TargetKeys target;
+  results::Target target;
   ConstraintKeys constraints;
   io::Schema schema;
   describe(schema, keys);
@@ -286,6 +315,9 @@ StudyEstimate check_study(const std::filesystem::path& path, const std::vector<s
   const Study study = read_study(path, overrides);
   StudyEstimate estimate;
   estimate.arms = study.arms;
+  estimate.variables = study.variables;
+  estimate.wishes = results::in_words(study.target, study.start->design().measures);
+  estimate.constraints = in_words(study.constraints, study.start->design());
   estimate.candidates = std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval);
   estimate.simulations =
       (estimate.candidates + 1) * study.keys.replicates + 2 * std::int64_t{study.keys.final_replicates};

@@ -25,7 +25,7 @@ struct StudyKeys {
   int maxeval = 0;                        ///< candidates in total, over all arms; must be given
   std::string allocation =
       "equal";         ///< of maxeval to arms: "equal", "proportional", or a list of numbers, one an arm ("6, 6, 4")
-  int replicates = 1;  ///< a candidate; replicate r has the same seeds for every candidate
+  int replicates = 3;  ///< a candidate; replicate r has the same seeds for every candidate
   int final_replicates = 5;    ///< fresh seeds on which best and start are run again; 0: none
   double until = 0.0;          ///< engineering strain; 0: as the design says
   int starts = 1;              ///< arms that differ only in where a local algorithm begins
@@ -61,7 +61,7 @@ struct Arm {
 struct Study {
   std::filesystem::path file;
   StudyKeys keys;
-  TargetKeys target;
+  results::Target target;  ///< of the study, where it says nothing of the design it starts from
   ConstraintKeys constraints;
   std::vector<Variable> variables;
   std::vector<Arm> arms;
@@ -100,8 +100,11 @@ std::string study_reference();
 /// What a study would run, for `perfora check`.
 struct StudyEstimate {
   std::vector<Arm> arms;
-  std::int64_t candidates = 0;   ///< maxeval + refine_maxeval
-  std::int64_t simulations = 0;  ///< at most: (candidates + start) x replicates + 2 x final_replicates
+  std::vector<std::string> wishes;  ///< results::in_words()
+  std::vector<Variable> variables;
+  std::vector<std::string> constraints;  ///< a line each
+  std::int64_t candidates = 0;           ///< maxeval + refine_maxeval
+  std::int64_t simulations = 0;          ///< at most: (candidates + start) x replicates + 2 x final_replicates
   std::vector<std::string> warnings;
   std::shared_ptr<const DesignFile> start;
 };

@@ -9,7 +9,8 @@
 #include <sstream>
 
 #include "io/files.h"
-#include "io/units.h"
+#include "io/text.h"
+#include "optimize/search/study_keys.h"
 
 namespace perfora::optimize {
 namespace {
@@ -29,56 +30,8 @@ struct Axis {
 std::string value_name(const io::Value& value) {
   if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
   if (const auto* number = std::get_if<std::int64_t>(&value.data)) return fmt::format("{}", *number);
+  if (const auto* flag = std::get_if<bool>(&value.data)) return *flag ? "true" : "false";
   return "?";
-}
-
-io::Origin origin_in(const Study& study, const std::string& table, const io::Entry& entry) {
-  return {study.file.string(), entry.value.line, table + "." + entry.key};
-}
-
-/// The key of the design that an entry names; the section "layout" may be left out.
-const io::Key& layout_key(const Study& study, const std::string& table, const io::Entry& entry) {
-  const io::Schema& schema = study.start->schema();
-  const std::string name = entry.key.find('.') == std::string::npos ? "layout." + entry.key : entry.key;
-  const io::Key* key = schema.find(name);
-  if (key && key->section == "layout" && (key->numeric() || key->type == io::KeyType::choice)) return *key;
-  std::vector<std::string> allowed;
-  for (const io::Key& other : schema.keys())
-    if (other.section == "layout" && (other.numeric() || (table == "arms" && other.type == io::KeyType::choice)))
-      allowed.push_back(other.full_name());
-  const std::string nearest = io::nearest_name(name, allowed);
-  throw io::InputError(origin_in(study, table, entry), key ? "a study cannot vary this key" : "there is no such key",
-                       fmt::format("{}", fmt::join(allowed, ", ")),
-                       nearest.empty() ? "take one of these" : fmt::format("did you mean {}?", nearest));
-}
-
-const io::ValueList& list_of(const Study& study, const std::string& table, const io::Entry& entry,
-                             const std::string& allowed) {
-  const auto* list = std::get_if<io::ValueList>(&entry.value.data);
-  if (!list || list->empty())
-    throw io::InputError(origin_in(study, table, entry), "a list is wanted here", allowed, "");
-  return *list;
-}
-
-/// Both bounds in SI, checked against the key's range.
-std::pair<double, double> bounds(const Study& study, const io::Key& key, const io::Entry& entry) {
-  const io::Origin origin = origin_in(study, "variables", entry);
-  const auto& list = list_of(study, "variables", entry, "[lowest, highest]");
-  if (list.size() != 2)
-    throw io::InputError(origin, fmt::format("bounds are two numbers, not {}", list.size()), "[lowest, highest]", "");
-  double bound[2];
-  for (std::size_t k = 0; k < 2; ++k) {
-    bound[k] = io::parse_quantity(list[k], key.dimension, origin);
-    if (!key.range.contains(bound[k]))
-      throw io::InputError(origin, fmt::format("the bound {:g} is out of range", bound[k]), key.range.text(), "");
-  }
-  return {bound[0], bound[1]};
-}
-
-[[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high) {
-  throw io::InputError(origin_in(study, "variables", entry),
-                       fmt::format("nothing lies between the bounds {:g} and {:g}", low, high), "lowest < highest",
-                       "write the smaller one first, or set the key in the design instead");
 }
 
 Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
@@ -100,14 +53,15 @@ Axis range_axis(const Study& study, const io::Key& key, const io::Entry& entry) 
   return axis;
 }
 
-Axis list_axis(const Study& study, const io::Key& key, const io::Entry& entry) {
+Axis list_axis(const Study& study, const NamedKey& named, const io::Entry& entry) {
+  const io::Key& key = named.key;
   Axis axis{key.full_name(), {}};
   DesignFile scratch(study.start->design());
   for (const io::Value& value :
        list_of(study, "arms", entry, "a list of values, such as [2, 3] or [\"square\", \"staggered\"]")) {
-    if (key.type == io::KeyType::real)
+    if (key.type == io::KeyType::real || key.list())
       throw io::InputError(origin_in(study, "arms", entry), "arms are whole numbers or names", "",
-                           fmt::format("move {} to [variables] with bounds", key.full_name()));
+                           fmt::format("move {} to [variables] with bounds", named.name));
     scratch.schema().set(key.full_name(), value, origin_in(study, "arms", entry));
     const bool known = std::any_of(axis.values.begin(), axis.values.end(),
                                    [&](const io::Value& other) { return value_name(other) == value_name(value); });
@@ -128,9 +82,9 @@ std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
     axes.push_back(std::move(axis));
   };
   for (const io::Entry& entry : entries.arms)
-    add(list_axis(study, layout_key(study, "arms", entry), entry), origin_in(study, "arms", entry));
+    add(list_axis(study, design_key(study, "arms", entry), entry), origin_in(study, "arms", entry));
   for (const io::Entry& entry : entries.variables) {
-    const io::Key& key = layout_key(study, "variables", entry);
+    const io::Key& key = design_key(study, "variables", entry).key;
     if (key.type == io::KeyType::integer) add(range_axis(study, key, entry), origin_in(study, "variables", entry));
   }
   return axes;
@@ -182,11 +136,22 @@ double feasible_fraction(const Study& study, const Arm& arm) {
   return laid == 0 ? -1.0 : static_cast<double>(kept) / samples;
 }
 
-/// An arm's holes at the first points of its bounds.
+/// All keys of a design but those of its layout.
+std::string beside_layout(const DesignFile& design) {
+  std::string text;
+  for (const io::Key& key : design.schema().keys())
+    if (key.section != "layout") text += io::value_text(key.get()) + "\n";
+  return text;
+}
+
+/// An arm's holes at the first points of its bounds, and what else a result depends on.
 struct ArmHoles {
   bool complete = true;  ///< false: somewhere they cannot be placed
   std::vector<std::vector<geometry::Perforation>> holes;
-  bool same(const ArmHoles& other) const { return complete && other.complete && holes == other.holes; }
+  std::vector<std::string> others;  ///< keys beside the layout
+  bool same(const ArmHoles& other) const {
+    return complete && other.complete && holes == other.holes && others == other.others;
+  }
 };
 
 /// `fixed`: this variable at one end of its bounds (0: low, 1: high) at all points.
@@ -197,7 +162,9 @@ ArmHoles holes_of(const Study& study, const Arm& arm, std::optional<std::size_t>
     for (int k = 0; k < compared; ++k) {
       std::vector<double> point = halton_point(k, dimension);
       if (fixed) point[*fixed] = end;
-      const Design design = study.design_at(&arm, study.values_at(point)).design();
+      const DesignFile made = study.design_at(&arm, study.values_at(point));
+      const Design& design = made.design();
+      found.others.push_back(beside_layout(made));
       found.holes.push_back(geometry::place_perforations(design.layout, design.seeds.effective(0).layout).perforations);
     }
   } catch (const io::InputError&) {
@@ -302,14 +269,11 @@ void allocate(Study& study, const std::vector<double>& fractions, const io::Orig
 
 void make_variables(Study& study, const ArmEntries& entries) {
   for (const io::Entry& entry : entries.variables) {
-    const io::Key& key = layout_key(study, "variables", entry);
-    if (key.type == io::KeyType::choice)
-      throw io::InputError(origin_in(study, "variables", entry), "names have no bounds", "",
-                           fmt::format("list them in [arms]: {} = [\"square\", \"staggered\"]", key.name));
+    const auto& [name, key] = design_key(study, "variables", entry);
     if (key.type == io::KeyType::integer) continue;
     const auto [low, high] = bounds(study, key, entry);
     if (!(low < high)) refuse_empty_bounds(study, entry, low, high);
-    study.variables.push_back({key.full_name(), low, high, key.dimension});
+    study.variables.push_back({name, low, high, key.dimension});
   }
   if (study.variables.empty())
     throw io::InputError({study.file.string(), 0, "variables"}, "no continuous variable is given", "",

@@ -5,6 +5,7 @@
 
 #include "geometry/layout.h"
 #include "io/text.h"
+#include "optimize/search/study_result.h"
 
 namespace perfora::optimize {
 namespace {
@@ -75,10 +76,24 @@ results::StudyRecord study_record(StudyRun& run) {
   record.subtitle =
       fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
                   study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
-  record.target = study.target.plateau_stress;
-  record.window_start = study.target.window[0];
-  record.window_end = study.target.window[1];
+  if (study.target.plateau_stress > 0.0) {
+    record.target = study.target.plateau_stress;
+    record.target_tolerance = study.target.tolerance * study.target.plateau_stress;
+  }
+  for (std::size_t k = 0; k + 1 < study.target.curve_points.size(); k += 2) {
+    record.target_curve.strain.push_back(study.target.curve_points[k]);
+    record.target_curve.stress.push_back(study.target.curve_points[k + 1]);
+  }
+  const results::MeasureOptions& measures = study.start->design().measures;
+  if (measures.plateau == results::PlateauPlace::window) {
+    record.window_start = measures.plateau_start;
+    record.window_end = measures.plateau_end;
+  }
   add_points(record, run);
+  if (const auto verdict = verdict_of(run)) {
+    record.verdict = verdict->text;
+    record.outcome = results::outcome_name(verdict->outcome);
+  }
   if (!plan.best) return record;
   const auto best = shown(run, *plan.best);
   const auto start = shown(run, *plan.start.candidate);

@@ -2,7 +2,10 @@
 #include "optimize/search/study_result.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/csv.h"
 #include "io/files.h"
@@ -35,6 +38,38 @@ json value_json(const io::Value& value) {
   return nullptr;
 }
 
+json window_json(const results::MeasureOptions& measures) {
+  if (measures.plateau == results::PlateauPlace::found) return nullptr;
+  return {measures.plateau_start, measures.plateau_end};
+}
+
+std::string window_text(const results::MeasureOptions& measures) {
+  if (measures.plateau == results::PlateauPlace::found) return "on the found plateau";
+  return fmt::format("over strain {:g} to {:g}", measures.plateau_start, measures.plateau_end);
+}
+
+/// What all candidates that were simulated reached of each wish.
+std::vector<results::Reach> reach_of(const StudyRun& run) {
+  const results::Target& target = run.study().target;
+  const auto recorded = results::recorded_measures(target);
+  std::vector<results::Reach> all;
+  for (const results::Wish& wish : results::wishes(target)) {
+    const auto place = std::find(recorded.begin(), recorded.end(), wish.measure) - recorded.begin();
+    results::Reach reach{wish.measure};
+    for (const Trace& trace : run.plan().traces)
+      for (const Visit& visit : trace.visits) {
+        if (!visit.detail.valid) continue;
+        const double mean = visit.detail.recorded[static_cast<std::size_t>(place)];
+        if (!std::isfinite(mean)) continue;
+        reach.low = reach.candidates == 0 ? mean : std::min(reach.low, mean);
+        reach.high = reach.candidates == 0 ? mean : std::max(reach.high, mean);
+        ++reach.candidates;
+      }
+    all.push_back(reach);
+  }
+  return all;
+}
+
 /// Values of the keys that the study varies.
 json design_values(const Study& study, const Candidate& candidate) {
   json values = json::object();
@@ -55,6 +90,7 @@ json finals_json(const Finals& finals) {
           {"start_scores", finals.start_scores},
           {"gain", finals.pairs > 0 ? number(finals.gain) : json(nullptr)},
           {"gain_standard_error", finals.pairs > 1 ? number(finals.gain_error) : json(nullptr)},
+          {"gain_confidence_95", finals.pairs > 1 ? number(finals.gain_interval) : json(nullptr)},
           {"significant", finals.significant}};
 }
 
@@ -115,6 +151,16 @@ json plateau_json(const Plan& plan) {
           {"seeds", fresh ? "fresh" : "of the search"}};
 }
 
+/// Places among the recorded measures of those without a column of old.
+std::vector<std::size_t> further_columns(const Study& study) {
+  static const std::set<std::string_view> there{"plateau_stress", "undulation", "first_peak_stress"};
+  const auto recorded = results::recorded_measures(study.target);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < recorded.size(); ++k)
+    if (!there.contains(recorded[k]->key)) places.push_back(k);
+  return places;
+}
+
 std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place,
                      const Visit& visit) {
   std::string line = fmt::format("{},{},{}", stage, io::csv_quoted(arm), place);
@@ -132,10 +178,26 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
   add(visit.detail.plateau_std, any);
   add(visit.detail.undulation_mean, any);
   add(visit.detail.first_peak_mean, any);
+  const auto columns = further_columns(study);
+  for (const std::size_t k : columns) {
+    const bool known = any && k < visit.detail.recorded.size() && std::isfinite(visit.detail.recorded[k]);
+    add(known ? visit.detail.recorded[k] : 0.0, known);
+  }
   return line + fmt::format(",{},{}\n", visit.detail.replicates, visit.detail.failed);
 }
 
 }  // namespace
+
+std::optional<results::Verdict> verdict_of(StudyRun& run) {
+  const Plan& plan = run.plan();
+  const Study& study = run.study();
+  if (!plan.best || results::wishes(study.target).empty()) return std::nullopt;
+  const int first = study.keys.replicates, count = study.keys.final_replicates;
+  auto judged = run.known(*plan.best, first, count);
+  const bool fresh = count > 0 && static_cast<int>(judged.size()) == count;
+  if (!fresh) judged = run.known(*plan.best, 0, study.keys.replicates);
+  return results::verdict_on(study.target, judged, fresh, reach_of(run));
+}
 
 json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
@@ -148,13 +210,14 @@ json to_json(StudyRun& run) {
                  {"results_version", results_version},
                  {"algorithm", study.keys.algorithm},
                  {library.name + "_version", library.version},
-                 {"target", study.target.plateau_stress},
-                 {"plateau_window", study.target.window},
+                 {"target", study.target.plateau_stress > 0.0 ? json(study.target.plateau_stress) : json(nullptr)},
+                 {"plateau_window", window_json(study.start->design().measures)},
                  {"until", study.until()},
                  {"replicates", study.keys.replicates},
                  {"evaluations", run.answers().size()},
                  {"stop_reason", run.reason()},
                  {"arms", arms_json(run)}};
+  if (const auto verdict = verdict_of(run)) record["verdict"] = results::to_json(*verdict);
   record["best"] = plan.best ? design_values(study, *plan.best) : json(nullptr);
   record["best_design"] = plan.best ? json("best.toml") : json(nullptr);
   record["score"] = plan.best ? number(plan.best_score.value) : json(nullptr);
@@ -175,15 +238,15 @@ std::string best_toml(StudyRun& run) {
   std::string text = fmt::format("# Best design of {} ({}, {} evaluations): {}\n", study.file.filename().string(),
                                  study.keys.algorithm, run.answers().size(), plan.best->label);
   text += fmt::format(
-      "# score {:.6g}; plateau {} over strain {:g} to {:g} (mean of {} runs), target {}\n", plan.best_score.value,
+      "# score {:.6g}; plateau {} {} (mean of {} runs)\n", plan.best_score.value,
       io::quantity(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
-      study.target.window[0], study.target.window[1], plateau.at("count").get<int>(),
-      io::quantity(study.target.plateau_stress, io::Dimension::stress));
+      window_text(study.start->design().measures), plateau.at("count").get<int>());
+  if (const auto verdict = verdict_of(run)) text += "# " + verdict->text + "\n";
   const Finals& finals = plan.finals;
   if (finals.pairs > 1)
-    text += fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (standard error) over the start: {}\n",
-                        finals.pairs, finals.gain, finals.gain_error,
-                        finals.significant ? "more than two standard errors" : "not more than two standard errors");
+    text +=
+        fmt::format("# On {} fresh seeds the score gained {:.4g} +- {:.2g} (95 %) over the start: {}\n", finals.pairs,
+                    finals.gain, finals.gain_interval, finals.significant ? "a gain" : "it may be chance");
   return text + design_of(study, *plan.best).schema().to_toml();
 }
 
@@ -191,7 +254,10 @@ std::string evaluations_csv(StudyRun& run) {
   const Study& study = run.study();
   std::string text = "stage,arm,number";
   for (const Variable& variable : study.variables) text += "," + variable.key;
-  text += ",status,violation,score,plateau_mean,plateau_std,undulation,first_peak_stress,replicates,failed\n";
+  text += ",status,violation,score,plateau_mean,plateau_std,undulation,first_peak_stress";
+  const auto recorded = results::recorded_measures(study.target);
+  for (const std::size_t k : further_columns(study)) text += std::string(",") + recorded[k]->key;
+  text += ",replicates,failed\n";
   if (run.plan().start.candidate) text += csv_line(study, "start", "start", 0, run.plan().start);
   for (const Trace& trace : run.plan().traces)
     for (std::size_t k = 0; k < trace.visits.size(); ++k)

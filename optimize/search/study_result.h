@@ -3,15 +3,21 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "optimize/search/study_run.h"
+#include "results/verdict.h"
 
 namespace perfora::optimize {
 
 /// schema "perfora.optimize/1". SI; null for what is not known. All but `performance` depends on the study only, never
 /// on workers, stops or kills.
 nlohmann::json to_json(StudyRun& run);
+
+/// The verdict on the best design: on the fresh seeds where they were run, else on those of the search. Nothing without
+/// a best design or a wish.
+std::optional<results::Verdict> verdict_of(StudyRun& run);
 
 /// The best design as a design file, with what was found as comments. Empty without a best design.
 std::string best_toml(StudyRun& run);

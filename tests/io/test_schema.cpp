@@ -125,6 +125,60 @@ TEST(Schema, NumbersByName) {
   EXPECT_THAT(input_error([&] { (void)example.schema.get_number("layout.family"); }), HasSubstr("is not a number"));
 }
 
+TEST(Schema, ElementsOfListsByName) {
+  Example example;
+  example.apply("[layout]\nholes = [[\"1 mm\", 2e-3, 3e-3], [4e-3, 5e-3, 6e-3]]\n[loading]\nstrains = [0.1, 0.2]\n");
+  example.schema.set_override("loading.strains[1]=\"30 %\"");
+  example.schema.set_override("layout.holes[1][2]=7 mm");
+  EXPECT_THAT(example.options.strains, ElementsAre(0.1, 0.3));
+  EXPECT_THAT(example.options.holes, ElementsAre(1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 7e-3));
+  example.schema.set_number("loading.strains[0]", 0.15, {"study", 0, ""});
+  EXPECT_EQ(example.schema.get_number("loading.strains[0]"), 0.15);
+  EXPECT_EQ(example.schema.get_number("layout.holes[0][0]"), 1e-3);
+  EXPECT_EQ(example.schema.find("loading.strains[0]"), example.schema.find("loading.strains"));
+  EXPECT_TRUE(example.schema.is_number("loading.strains[7]"));
+  EXPECT_FALSE(example.schema.is_number("loading.strains"));
+  EXPECT_FALSE(example.schema.is_number("layout.family"));
+  EXPECT_FALSE(example.schema.is_number("layout.diameter[0]"));
+  example.apply("[loading]\n\"strains[1]\" = 0.4\n");
+  EXPECT_THAT(example.options.strains, ElementsAre(0.15, 0.4));
+}
+
+TEST(Schema, RefusesElementsThatAreNotThere) {
+  Example example;
+  example.apply("[layout]\nholes = [[1, 2, 3]]\n[loading]\nstrains = [0.1, 0.2]\n");
+  const auto said = [&](const std::string& text) { return input_error([&] { example.schema.set_override(text); }); };
+  EXPECT_THAT(said("loading.strains[2]=0.3"), HasSubstr("the list has 2 values here; [0] to [1]"));
+  EXPECT_THAT(said("loading.strains[-1]=0.3"), HasSubstr("does not name an element of the list; loading.strains[0]"));
+  EXPECT_THAT(said("loading.strains[=0.3"), HasSubstr("does not name an element"));
+  EXPECT_THAT(said("loading.strains[x]=0.3"), HasSubstr("does not name an element"));
+  EXPECT_THAT(said("loading.strains[0][0]=0.3"), HasSubstr("names more than an element"));
+  EXPECT_THAT(said("layout.holes[0]=0.3"), HasSubstr("does not name an element of the list; layout.holes[0][0]"));
+  EXPECT_THAT(said("layout.holes[0][3]=0.3"), HasSubstr("the list has 3 values here"));
+  EXPECT_THAT(said("layout.diameter[0]=0.3"), HasSubstr("the key is no list; write layout.diameter"));
+  EXPECT_THAT(said("loading.strain[0]=0.3"), HasSubstr("did you mean loading.strains?"));
+  EXPECT_THAT(said("loading.strains[0]=2"), HasSubstr("out of range"));
+  EXPECT_THAT(said("loading.strains[0]=[1]"), HasSubstr("found"));
+  EXPECT_THAT(example.options.strains, ElementsAre(0.1, 0.2));
+  EXPECT_THAT(input_error([&] {
+                example.schema.set_number("loading.strains", 0.3, {"study", 0, ""});
+              }),
+              HasSubstr("name an element, such as loading.strains[0]"));
+}
+
+TEST(Schema, AListMayTakeOneNumberWithoutBrackets) {
+  std::vector<double> sizes;
+  Schema schema;
+  schema.section("rows", "").real_list("size", sizes, Dimension::length, Range::positive(), "", OneNumber::taken);
+  schema.set_override("rows.size=9 mm");
+  EXPECT_THAT(sizes, ElementsAre(0.009));
+  schema.set_override("rows.size=[\"9 mm\", 0.01]");
+  EXPECT_THAT(sizes, ElementsAre(0.009, 0.01));
+  EXPECT_THAT(input_error([&] { schema.set_override("rows.size=-1 mm"); }), HasSubstr("out of range"));
+  EXPECT_THAT(input_error([&] { schema.set_override("rows.size=true"); }),
+              HasSubstr("a number or a list of numbers in square brackets is wanted"));
+}
+
 TEST(Schema, ResolvedConfigurationBringsBackTheSameBits) {
   std::mt19937_64 random(7);
   const auto any_finite = [&random] {  // all exponents and both signs, denormals included

@@ -75,6 +75,41 @@ TEST(Specimen, BondsAndStrengthsAreThoseOfThePeriodicBlock) {
     }
 }
 
+// A crushed end has no bond whose middle lies in it, whatever stands around the block; all other bonds stay, in order
+// and as strong as they were.
+TEST(CrushedEnds, HaveNoBonds) {
+  const geometry::Packing packing = test::jittered_packing(16, pitch, 3);
+  for (const TopBottom top_bottom : {TopBottom::periodic, TopBottom::platens}) {
+    BoundaryOptions boundary;
+    boundary.top_bottom = top_bottom;
+    boundary.crushed_bottom = 2.3 * pitch;
+    boundary.crushed_top = 1.1 * pitch;
+    NoiseOptions noise;
+    noise.kind = NoiseKind::weibull;
+    const Specimen s = make_specimen(packing, test::no_holes(packing), boundary, {}, pitch);
+    const BondNetwork whole = make_bond_network(s.packing, s.layout, {}, noise, 5, pitch, s.field);
+    BondNetwork crushed = whole;
+    remove_crushed_bonds(crushed, s.packing, s.field, boundary);
+    std::size_t kept = 0;
+    for (std::size_t b = 0; b < whole.i.size(); ++b) {
+      const double y = packing.y[static_cast<std::size_t>(whole.i[b])];
+      double middle = std::fmod(y + 0.5 * whole.direction_y[b] * whole.reference_length[b], packing.height);
+      if (middle < 0.0) middle += packing.height;
+      if (middle < 2.3 * pitch || middle > packing.height - 1.1 * pitch) continue;
+      ASSERT_LT(kept, crushed.i.size());
+      EXPECT_EQ(crushed.i[kept], whole.i[b]);
+      EXPECT_EQ(crushed.j[kept], whole.j[b]);
+      EXPECT_EQ(crushed.strength[kept], whole.strength[b]);
+      EXPECT_EQ(crushed.direction_y[kept], whole.direction_y[b]);
+      ++kept;
+    }
+    EXPECT_EQ(crushed.i.size(), kept);
+    EXPECT_EQ(crushed.state.size(), kept);
+    EXPECT_GT(kept, 0U);
+    EXPECT_LT(kept, whole.i.size());
+  }
+}
+
 // A hole that the edge cuts is in the periodic layout once; both of its parts cut the block.
 TEST(Specimen, HolesAcrossACutEdgeStandOnBothSides) {
   const geometry::Packing packing = test::jittered_packing(20, pitch, 4);

@@ -50,6 +50,16 @@ TEST_F(SweepTest, MakesEveryCombinationThenOneAtATime) {
                                                     "material.horizon", "layout.diameter"}));
 }
 
+TEST_F(SweepTest, ElementsOfListsAreKeys) {
+  const Sweep made =
+      sweep(sweep_text("[set]\nlayout.family = \"rows\"\nlayout.row_diameter = [\"9 mm\", \"10 mm\"]\n[grid]\n"
+                       "\"layout.row_diameter[1]\" = [\"11 mm\", \"12 mm\"]\n"));
+  ASSERT_EQ(made.cases.size(), 2U);
+  EXPECT_EQ(made.cases[1].design->layout.row_diameter, (std::vector<double>{0.009, 0.012}));
+  EXPECT_EQ(made.cases[1].label, "row_diameter[1] 12 mm");
+  EXPECT_EQ(made.columns, (std::vector<std::string>{"layout.row_diameter[1]"}));
+}
+
 TEST_F(SweepTest, LabelsSayWhatTellsCasesApart) {
   const Sweep made = sweep(
       sweep_text("[grid]\nnoise.kind = [\"perlin\"]\nmaterial.horizon = [2, 3]\n[each]\nnoise.kind = [\"weibull\"]\n"));

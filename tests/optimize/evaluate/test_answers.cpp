@@ -7,20 +7,25 @@
 namespace perfora::optimize {
 namespace {
 
+DesignFile design(double start, double end) {
+  DesignFile design;
+  design.design().measures.plateau_start = start;
+  design.design().measures.plateau_end = end;
+  return design;
+}
+
 /// A run to 40 % strain whose plateau was measured from 20 to 35 %.
 Evaluation evaluation(double strain = 0.4, double start = 0.2, double end = 0.35) {
   Evaluation made;
   made.summary.final_strain = strain;
   made.summary.plateau_start = start;
   made.summary.plateau_end = end;
+  made.summary.measured = design(start, end).design().measuring_frame().text();
   return made;
 }
 
 Request request(double strain = 0.4, double start = 0.2, double end = 0.35) {
-  DesignFile design;
-  design.design().solver.measures.plateau_start = start;
-  design.design().solver.measures.plateau_end = end;
-  return make_request(design, 0, strain);
+  return make_request(design(start, end), 0, strain);
 }
 
 TEST(Answers, StrainAndWindowMustBeThoseAskedFor) {

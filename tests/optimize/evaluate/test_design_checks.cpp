@@ -69,6 +69,29 @@ TEST(DesignChecks, TheBoundOnHolesRefusesNoLayoutThatFits) {
     EXPECT_EQ(refusal("[layout]\nrows = " + std::to_string(rows) + "\ncolumns = 6\n"), "") << rows;
 }
 
+// 36 holes at a pitch of 25 mm: walls of 3 mm hold a horizon of 3 <d> twice at <d> = 0.5 mm.
+TEST(DesignChecks, ThinWallsNameTheDiscsThatWouldDo) {
+  EXPECT_THAT(warnings_of("[layout]\ndiameter = \"22 mm\"\n"), HasSubstr("a packing.mean_diameter of at most 0.5 mm"));
+  EXPECT_THAT(refusal("[layout]\ndiameter = \"24 mm\"\n"), HasSubstr("a mean diameter of at most 333 um"));
+}
+
+TEST(DesignChecks, KeysOfOtherFamiliesAreTold) {
+  EXPECT_THAT(warnings_of("[layout]\nrow_diameter = \"15 mm\"\n"), HasSubstr("layout.row_diameter has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nweak_factor = 1.1\n"), HasSubstr("layout.weak_factor has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nangle = \"20 deg\"\n"), HasSubstr("layout.angle has no effect"));
+  EXPECT_THAT(warnings_of("[layout]\nfamily = \"rows\"\nrow_diameter = \"15 mm\"\ndiameter = \"16 mm\"\n"),
+              HasSubstr("layout.diameter has no effect"));
+  EXPECT_EQ(
+      warnings_of("[layout]\nfamily = \"rows\"\nrow_diameter = \"15 mm\"\nstagger = 0.25\nminimum_wall = \"4 mm\"\n"),
+      "");
+}
+
+TEST(DesignChecks, CrushedEndsLeaveSomethingOfTheBlock) {
+  EXPECT_EQ(refusal("[boundary]\ncrushed_bottom = \"100 mm\"\n"), "");
+  EXPECT_THAT(refusal("[boundary]\ncrushed_bottom = \"100 mm\"\ncrushed_top = \"50 mm\"\n"),
+              HasSubstr("boundary.crushed_bottom: the crushed ends, 150 mm together, leave nothing"));
+}
+
 TEST(DesignChecks, SizesThatContradictEachOther) {
   EXPECT_THAT(refusal("[packing]\nmean_diameter = \"2 mm\"\n"), HasSubstr("outside the diameters of the size law"));
   EXPECT_THAT(refusal("[packing]\nmean_diameter = \"1 um\"\nmaximum_diameter = \"2 um\"\n"), HasSubstr("discs"));

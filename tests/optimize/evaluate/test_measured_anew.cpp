@@ -24,6 +24,14 @@ class MeasuredAnew : public ::testing::Test {
   DesignFolder folder_;
 };
 
+results::MeasuringFrame frame(double start, double end) {
+  results::MeasuringFrame frame;
+  frame.options.plateau_start = start;
+  frame.options.plateau_end = end;
+  frame.reference_area = 0.012 * 0.012;
+  return frame;
+}
+
 /// All that two runs of one path must share: performance is of the machine.
 nlohmann::json comparable(const Evaluation& evaluation) {
   nlohmann::json record = to_json(evaluation, true);
@@ -38,11 +46,10 @@ TEST_F(MeasuredAnew, AnotherWindowAndASmallerStrainGiveTheBitsOfTheirOwnRun) {
   const Evaluation shorter = evaluate_design(design(short_end, 0.005, 0.02), {}, 0);
   ASSERT_EQ(shorter.curve.peak_passed.back(), 1.0) << "the first peak must be known where the shorter run ends";
   ASSERT_NE(longer.summary.plateau_stress, window.summary.plateau_stress);
-  const double area = 0.012 * 0.012;
-  const auto anew = results::measured_anew(longer, {0.005, 0.02, long_end, area});
+  const auto anew = results::measured_anew(longer, frame(0.005, 0.02), long_end);
   ASSERT_TRUE(anew.has_value());
   EXPECT_EQ(comparable(*anew), comparable(window));
-  const auto cut = results::measured_anew(longer, {0.005, 0.02, short_end, area});
+  const auto cut = results::measured_anew(longer, frame(0.005, 0.02), short_end);
   ASSERT_TRUE(cut.has_value());
   Evaluation without_lateral = *cut;  // the last means of lateral stresses reach beyond the end
   for (auto column : {&results::History::stress_xx, &results::History::stress_xy, &results::History::stress_asymmetry})
@@ -52,19 +59,18 @@ TEST_F(MeasuredAnew, AnotherWindowAndASmallerStrainGiveTheBitsOfTheirOwnRun) {
 
 TEST_F(MeasuredAnew, NothingIsMadeUp) {
   const Evaluation made = evaluate_design(design(long_end, 0.01, 0.03), {}, 0);
-  const double area = 0.012 * 0.012;
-  EXPECT_FALSE(results::measured_anew(made, {0.01, 0.03, 0.12, area})) << "it ended before";
-  EXPECT_FALSE(results::measured_anew(made, {0.002, 0.004, 0.004, area})) << "the first peak is not known there";
+  EXPECT_FALSE(results::measured_anew(made, frame(0.01, 0.03), 0.12)) << "it ended before";
+  EXPECT_FALSE(results::measured_anew(made, frame(0.002, 0.004), 0.004)) << "the first peak is not known there";
   Evaluation without_ends = made;
   without_ends.curve.stress_before.clear();
-  EXPECT_FALSE(results::measured_anew(without_ends, {0.01, 0.02, short_end, area})) << "of an older program";
-  EXPECT_TRUE(results::measured_anew(without_ends, {0.01, 0.02, long_end, area}));
+  EXPECT_FALSE(results::measured_anew(without_ends, frame(0.01, 0.02), short_end)) << "of an older program";
+  EXPECT_TRUE(results::measured_anew(without_ends, frame(0.01, 0.02), long_end));
   Evaluation thinned = made;
   thinned.curve = results::coarse_curve(made.curve);
-  EXPECT_FALSE(results::measured_anew(thinned, {0.01, 0.02, long_end, area})) << "a curve for pictures";
+  EXPECT_FALSE(results::measured_anew(thinned, frame(0.01, 0.02), long_end)) << "a curve for pictures";
   Evaluation failed = made;
   failed.status = results::RunStatus::failed;
-  EXPECT_FALSE(results::measured_anew(failed, {0.01, 0.02, long_end, area}));
+  EXPECT_FALSE(results::measured_anew(failed, frame(0.01, 0.02), long_end));
 }
 
 TEST_F(MeasuredAnew, AHistoryComesBackFromItsFileAndAnswersFromThere) {

@@ -46,7 +46,10 @@ class StudyFolder {
 /// arm.
 inline std::string study_text(const std::string& study_keys, const std::string& arms = "",
                               const std::string& constraints = "") {
-  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + study_keys +
+  // One replicate a candidate unless the study says otherwise: its numbers are formulas.
+  const bool replicated = study_keys.starts_with("replicates") || study_keys.find("\nreplicates") != std::string::npos;
+  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + (replicated ? "" : std::string("replicates = 1\n")) +
+         study_keys +
          "\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n\"layout.diameter\" = [\"14 mm\", \"21 "
          "mm\"]\n\"layout.jitter\" = [0, \"1 mm\"]\n" +
          (arms.empty() ? "" : "[arms]\n" + arms + "\n") +
@@ -60,8 +63,9 @@ inline Evaluation completed(const Request& request) {
   evaluation.reason = "reached strain";
   evaluation.replicate = request.replicate;
   evaluation.summary.final_strain = request.strain();
-  evaluation.summary.plateau_start = request.design->solver.measures.plateau_start;
-  evaluation.summary.plateau_end = request.design->solver.measures.plateau_end;
+  evaluation.summary.plateau_start = request.design->measures.plateau_start;
+  evaluation.summary.plateau_end = request.design->measures.plateau_end;
+  evaluation.summary.measured = request.design->measuring_frame().text();
   return evaluation;
 }
 
@@ -81,6 +85,8 @@ inline Evaluation fake_evaluation(const Request& request) {
   const double off = std::sqrt(fake_distance(diameter, jitter)) + 0.3 * std::abs(holes - 4.0);
   evaluation.summary.plateau_stress =
       fake_target * (1.0 + off) * (1.0 + 0.01 * std::sin(1.0 + 2.0 * request.replicate));
+  evaluation.summary.target_distance = std::abs(std::log(evaluation.summary.plateau_stress / fake_target));
+  evaluation.summary.cap_ratio = 1.0;
   evaluation.summary.undulation = 0.1;
   evaluation.summary.first_peak_stress = 5e5;
   for (int k = 0; k <= 900; ++k) {

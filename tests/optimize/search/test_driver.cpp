@@ -205,7 +205,7 @@ TEST_F(DriverTest, ComparesBestAndStartPairByPair) {
   const auto single = [](double diameter, double jitter, int replicate) {
     const double plateau =
         (1.0 + std::sqrt(fake_distance(diameter, jitter))) * (1.0 + 0.01 * std::sin(1.0 + 2.0 * replicate));
-    return std::pow(plateau - 1.0, 2);
+    return std::pow(std::log(plateau), 2);
   };
   double sum = 0.0, squares = 0.0;
   for (int replicate = 1; replicate <= 4; ++replicate) {
@@ -216,6 +216,7 @@ TEST_F(DriverTest, ComparesBestAndStartPairByPair) {
   const double mean = sum / 4.0, error = std::sqrt((squares - 4.0 * mean * mean) / 3.0 / 4.0);
   EXPECT_NEAR(plan.finals.gain, mean, 1e-9);
   EXPECT_NEAR(plan.finals.gain_error, error, 1e-9);
+  EXPECT_NEAR(plan.finals.gain_interval, 3.182446 * error, 1e-6 * error);  // Student's t of 97.5 %, 3 degrees of freedom
   EXPECT_TRUE(plan.finals.significant);
 }
 
@@ -244,7 +245,10 @@ TEST_F(DriverTest, LeavesAStartOutsideTheBoundsOutOfTheSearch) {
   const Searched searched(one, [](const Request& request) {
     Evaluation evaluation = fake_evaluation(request);
     // The start would be perfect, but it is not a candidate.
-    if (request.design->layout.diameter == 0.010) evaluation.summary.plateau_stress = fake_target;
+    if (request.design->layout.diameter == 0.010) {
+      evaluation.summary.plateau_stress = fake_target;
+      evaluation.summary.target_distance = 0.0;
+    }
     return evaluation;
   });
   const Plan& plan = searched.plan;

@@ -11,59 +11,94 @@
 namespace perfora::optimize {
 namespace {
 
+using results::Target;
+
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-Evaluation run(double plateau, double undulation = 0.0, double peak = 0.0) {
+std::size_t place_of(const char* key) {
+  return static_cast<std::size_t>(results::measure_called(key) - results::measures().data());
+}
+
+/// A run whose plateau, distance to `target` and cap ratio fit together.
+Evaluation run(double plateau, double undulation = 0.0, double peak = 0.0, double target = 2e5) {
   Evaluation evaluation;
   evaluation.status = results::RunStatus::completed;
-  evaluation.summary.plateau_stress = plateau;
-  evaluation.summary.undulation = undulation;
-  evaluation.summary.first_peak_stress = peak;
+  results::Summary& summary = evaluation.summary;
+  summary.plateau_start = 0.2;
+  summary.plateau_end = 0.4;
+  summary.plateau_stress = plateau;
+  summary.target_distance = std::abs(std::log(plateau / target));
+  summary.cap_ratio = peak > plateau ? peak / plateau : 1.0;
+  summary.undulation = undulation;
+  summary.first_peak_stress = peak;
   return evaluation;
 }
 
-Score score(const TargetKeys& target, const std::vector<Evaluation>& runs) {
+Score score(const Target& target, const std::vector<Evaluation>& runs) {
   std::vector<const Evaluation*> pointers;
   for (const Evaluation& evaluation : runs) pointers.push_back(&evaluation);
   return score_of(target, pointers);
 }
 
-TargetKeys target_of(double stress) {
-  TargetKeys target;
+Target target_of(double stress) {
+  Target target;
   target.plateau_stress = stress;
   return target;
 }
 
-TEST(Objective, IsTheSquaredRelativeMissPlusItsWeightedTerms) {
-  TargetKeys target = target_of(2e5);
-  // mean 2.4e5, std (n - 1) sqrt(2) 0.2e5: (0.2)^2 + w (0.1 sqrt 2)^2.
-  const std::vector<Evaluation> runs{run(2.2e5, 0.1, 4e5), run(2.6e5, 0.3, 6e5)};
-  target.weight_std = 0.0;
-  EXPECT_NEAR(score(target, runs).value, 0.04, 1e-14);
-  target.weight_std = 3.0;
-  EXPECT_NEAR(score(target, runs).value, 0.04 + 3.0 * 0.02, 1e-14);
-  target.weight_undulation = 10.0;  // mean undulation 0.2
-  EXPECT_NEAR(score(target, runs).value, 0.1 + 10.0 * 0.04, 1e-14);
-  target.weight_peak = 0.5;  // mean peak 5e5: 1.5 targets above
-  EXPECT_NEAR(score(target, runs).value, 0.5 + 0.5 * 2.25, 1e-14);
-  EXPECT_NEAR(score(target, runs).plateau_std, std::sqrt(2.0) * 0.2e5, 1e-6);
+double square(double value) {
+  return value * value;
 }
 
-TEST(Objective, APeakBelowTheTargetCostsNothing) {
-  TargetKeys target = target_of(2e5);
-  target.weight_peak = 1.0;
-  EXPECT_EQ(score(target, {run(2e5, 0.0, 1e5)}).value, 0.0);
+TEST(Objective, IsTheSquaredDistanceInLogarithmsAndATenthOfTheCapRatios) {
+  const std::vector<Evaluation> runs{run(1e5, 0.0, 2e5), run(4e5, 0.0, 4e5)};
+  // Half and twice the target: ln 2 each; cap ratios 2 and 1.
+  EXPECT_NEAR(score(target_of(2e5), runs).value, square(std::log(2.0)) + 0.1 * 0.5 * square(std::log(2.0)), 1e-14);
+  EXPECT_NEAR(score(target_of(2e5), runs).plateau_std, 3e5 / std::sqrt(2.0), 1e-6);
 }
 
-TEST(Objective, OneReplicateHasNoSpread) {
-  const Score one = score(target_of(1e5), {run(1e5)});
-  EXPECT_EQ(one.value, 0.0);
-  EXPECT_EQ(one.plateau_std, 0.0);
-  EXPECT_TRUE(one.valid);
+TEST(Objective, UndershootAndOvershootByOneFactorCostTheSame) {
+  EXPECT_NEAR(score(target_of(2e5), {run(5e4)}).value, score(target_of(2e5), {run(8e5)}).value, 1e-14);
+}
+
+TEST(Objective, AddsWeightedTermsOfEachCurve) {
+  Target target = target_of(2e5);
+  target.weights[place_of("cap_ratio")] = 0.0;
+  target.weights[place_of("undulation")] = 10.0;
+  // Squares of each curve's own undulation: (0.01 + 0.09)/2.
+  EXPECT_NEAR(score(target, {run(2e5, 0.1), run(2e5, 0.3)}).value, 10.0 * 0.05, 1e-14);
+  target.weights[place_of("undulation")] = 0.0;
+  target.weights[place_of("first_peak_stress")] = 0.5;  // twice the target; below it: nothing
+  EXPECT_NEAR(score(target, {run(2e5, 0.0, 4e5), run(2e5, 0.0, 1e5)}).value, 0.25 * square(std::log(2.0)), 1e-14);
+}
+
+TEST(Objective, ALimitCostsWhereItsMeanIsNotKept) {
+  Target target = target_of(2e5);
+  target.weights[place_of("cap_ratio")] = 0.0;
+  target.limits[place_of("first_peak_stress")] = {3e5};
+  EXPECT_EQ(score(target, {run(2e5, 0.0, 3e5)}).value, 0.0);
+  EXPECT_NEAR(score(target, {run(2e5, 0.0, 5e5), run(2e5, 0.0, 7e5)}).value, square(std::log(2.0)), 1e-14);
+  target.limits[place_of("first_peak_stress")] = {};
+  target.limits[place_of("slope")] = {0.8, 1.25};
+  Evaluation steep = run(2e5);
+  steep.summary.slope = 2.5;
+  EXPECT_NEAR(score(target, {steep}).value, square(std::log(2.0)), 1e-14);
+  steep.summary.slope = 0.4;
+  EXPECT_NEAR(score(target, {steep}).value, square(std::log(2.0)), 1e-14);
+}
+
+// No plateau was found on the curve: the worst there is, ln(floor) squared, but a number that can be searched on.
+TEST(Objective, ACurveWithoutAFoundPlateauIsWorstNotFailed) {
+  Evaluation without = run(nan_value);
+  without.summary.measured = "found";
+  without.summary.cap_ratio = nan_value;
+  const Score value = score(target_of(2e5), {without});
+  EXPECT_TRUE(value.valid);
+  EXPECT_NEAR(value.value, 1.1 * square(std::log(0.05)), 1e-12);
 }
 
 TEST(Objective, IsFiniteWhateverTheRunsGave) {
-  const TargetKeys target = target_of(1.0);
+  const Target target = target_of(1.0);
   for (const double plateau : {0.0, -1e300, 1e300, 1e-300, nan_value, std::numeric_limits<double>::infinity()}) {
     const Score value = score(target, {run(plateau, nan_value, nan_value), run(1.0)});
     EXPECT_TRUE(std::isfinite(value.value)) << plateau;

@@ -52,7 +52,7 @@ TEST_F(StudyFile, ReadsVariablesTargetAndWindow) {
   EXPECT_EQ(study.keys.algorithm, "LN_SBPLX");
   EXPECT_DOUBLE_EQ(study.target.plateau_stress, 2e5);
   EXPECT_DOUBLE_EQ(study.until(), 0.45);
-  EXPECT_DOUBLE_EQ(study.start->design().solver.measures.plateau_end, 0.4);
+  EXPECT_DOUBLE_EQ(study.start->design().measures.plateau_end, 0.4);
   EXPECT_EQ(names(study), std::vector<std::string>{"all"});
   // The start of a local algorithm is the design: 16 mm lies 2/7 up the bounds.
   EXPECT_NEAR(study.arms[0].start[0], 2.0 / 7.0, 1e-12);
@@ -148,6 +148,31 @@ TEST_F(StudyFile, GradingIsAVariableAndOneRowIsLeftOut) {
   EXPECT_NEAR(measure.thinnest_wall, 0.025 - 0.0168, 1e-12);
 }
 
+TEST_F(StudyFile, VariesAnyNumberOfTheDesignAndElementsOfLists) {
+  folder.file("rows.toml",
+              "[cell]\nwidth = \"50 mm\"\nheight = \"50 mm\"\n[layout]\nfamily = \"rows\"\nrow_diameter = [\"9 mm\", "
+              "\"8 mm\"]\nrows = 4\ncolumns = 4\n[packing]\nmean_diameter = \"0.5044 mm\"\n");
+  const Study study = read(
+      "[study]\ndesign = \"rows.toml\"\nmaxeval = 4\nuntil = 0.45\n[target]\nplateau_stress = 2e5\n"
+      "[variables]\n\"layout.row_diameter[1]\" = [\"6 mm\", \"9 mm\"]\ncell.height = [\"48 mm\", \"60 mm\"]\n"
+      "material.critical_normal_displacement = [1e-6, 2e-6]\n[arms]\nherringbone = [false, true]\n"
+      "noise.kind = [\"none\", \"weibull\"]\n");
+  ASSERT_EQ(study.variables.size(), 3U);
+  EXPECT_EQ(study.variables[0].key, "layout.row_diameter[1]");
+  EXPECT_EQ(study.variables[0].dimension, io::Dimension::length);
+  // Circles have no angle: arms that differ in herringbone are one; those that differ in the noise are two.
+  EXPECT_EQ(names(study), (std::vector<std::string>{"herringbone=false kind=none", "herringbone=false kind=weibull"}));
+  EXPECT_TRUE(std::none_of(study.warnings.begin(), study.warnings.end(),
+                           [](const std::string& warning) { return has(warning, "has no effect"); }));
+  const Design design = study.design_at(&study.arms[1], std::vector{0.007, 0.055, 1.5e-6}).design();
+  EXPECT_EQ(design.layout.row_diameter, (std::vector<double>{0.009, 0.007}));
+  EXPECT_EQ(design.layout.height, 0.055);
+  EXPECT_EQ(design.solver.material.critical_normal_displacement, 1.5e-6);
+  EXPECT_EQ(design.solver.noise.kind, solver::NoiseKind::weibull);
+  EXPECT_NEAR(study.arms[0].start[0], (0.008 - 0.006) / 0.003, 1e-12);
+  EXPECT_NEAR(study.arms[0].start[1], (0.050 - 0.048) / 0.012, 1e-12);
+}
+
 TEST_F(StudyFile, WholeNumbersInVariablesAreRanges) {
   const Study study = read(
       "[study]\ndesign = \"design.toml\"\nmaxeval = 7\nuntil = 0.45\n[target]\nplateau_stress = "
@@ -208,6 +233,23 @@ TEST_F(StudyFile, MeasuresConstraintsOnTheLayout) {
   EXPECT_NEAR(g[1], (0.2 - porosity) / 0.4, 1e-9);
   EXPECT_NEAR(g[2], (porosity - 0.4) / 0.4, 1e-9);
   EXPECT_NEAR(violation(g), std::max(0.0, g[2]), 1e-15);
+}
+
+// 4 x 4 slots, 10 mm long in the bottom row and 8 mm in the top row, at a pitch of 12.5 mm: the thinnest wall stands
+// beside the longest.
+TEST_F(StudyFile, MeasuresConstraintsOnSlots) {
+  folder.file(
+      "slots.toml",
+      "[cell]\nwidth = \"50 mm\"\nheight = \"50 mm\"\n[layout]\nfamily = \"rows\"\nshape = \"slot\"\nbreadth = "
+      "\"2 mm\"\nrow_diameter = [\"9 mm\", \"8 mm\"]\nrows = 4\ncolumns = 4\n[packing]\nmean_diameter = \"0.5044 "
+      "mm\"\n");
+  const Study study = read(
+      "[study]\ndesign = \"slots.toml\"\nmaxeval = 4\nuntil = 0.45\n[target]\nplateau_stress = 2e5\n"
+      "[constraints]\nthinnest_wall = \"2 mm\"\n[variables]\n\"row_diameter[0]\" = [\"8 mm\", \"12 mm\"]\n");
+  const LayoutMeasure measure = measure_layout(study.design_at(&study.arms[0], std::vector{0.010}));
+  EXPECT_NEAR(measure.thinnest_wall, 0.0025, 1e-12);
+  // Lengths beside the half circles: 8, 22/3, 20/3 and 6 mm, 28 mm a column.
+  EXPECT_NEAR(measure.porosity, 4.0 * (0.002 * 0.028 + 4.0 * std::numbers::pi * 0.001 * 0.001) / 0.0025, 1e-12);
 }
 
 TEST_F(StudyFile, TheHorizonIsAConstraintByItself) {
@@ -283,7 +325,7 @@ TEST_F(StudyFile, RefusesWhatIsWrongByKeyAndRemedy) {
       {study_text("maxeval = 12", "family = [\"square\", \"hexagonal\"]"), {"family", "hexagonal"}},
       {study_text("maxeval = 12", "", "porosity = [0.5, 0.2]"), {"constraints.porosity"}},
       {study_text("maxeval = 12", "", "thinnest_wall = \"-1 mm\""), {"constraints.thinnest_wall"}},
-      {head + variables, {"target.plateau_stress", "missing or zero"}},
+      {head + variables, {"target.plateau_stress", "nothing is wished"}},
       {head + "[target]\nplateau_stress = 0\n" + variables, {"target.plateau_stress"}},
       {head + "[target]\nplateau_stress = \"2 mm\"\n" + variables, {"target.plateau_stress"}},
       {head + "[target]\nplateau_stress = 2e5\nwindow = [0.4, 0.2]\n" + variables, {"target.window"}},
@@ -297,7 +339,16 @@ TEST_F(StudyFile, RefusesWhatIsWrongByKeyAndRemedy) {
       {head + target + "[variables]\nlayout.diameter = [-0.01, 0.02]\n", {"variables.layout.diameter", "out of range"}},
       {head + target + "[variables]\nlayout.diameter = 0.02\n", {"a list is wanted"}},
       {head + target + "[variables]\nlayout.diametre = [0.01, 0.02]\n", {"layout.diametre", "layout.diameter"}},
-      {head + target + "[variables]\nmaterial.horizon = [2, 3]\n", {"material.horizon", "cannot vary"}},
+      {head + target + "[variables]\nmaterial.horison = [2, 3]\n", {"no such key", "did you mean material.horizon?"}},
+      {head + target + "[variables]\noutput.history_interval = [0.001, 0.002]\n", {"cannot vary", "not the result"}},
+      {head + target + "[variables]\nloading.until = [0.5, 0.6]\n", {"loading.until", "study.until"}},
+      {head + target + "[variables]\nmaterial_test.past_peak = [1.5, 2]\n", {"a run does not look at it"}},
+      {head + target + "[variables]\nrow_diameter = [0.014, 0.02]\n",
+       {"variables.row_diameter", "this is a list", "\"layout.row_diameter[0]\""}},
+      {head + target + "[variables]\n\"row_diameter[0]\" = [0.014, 0.02]\n",
+       {"the list has 0 values", "give the design layout.row_diameter"}},
+      {head + target + "[variables]\n\"diameter[0]\" = [0.014, 0.02]\n", {"variables.diameter[0]", "cannot vary"}},
+      {head + target + "[variables]\nnoise.kind = [1, 2]\n", {"noise.kind", "[arms]"}},
       {head + target + "[variables]\nlayout.family = [\"square\"]\n", {"layout.family", "[arms]"}},
       {"[study]\nmaxeval = 4\n" + target + variables, {"study.design"}},
       {"[study]\ndesign = \"missing.toml\"\nmaxeval = 4\n" + target + variables, {"missing.toml"}},

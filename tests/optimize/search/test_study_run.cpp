@@ -260,7 +260,7 @@ TEST_F(StudyRunTest, WritesABestDesignThatReadsBack) {
   const DesignFile best(folder / "out/best.toml");
   EXPECT_EQ(best.design().layout.diameter, record.at("best").at("layout.diameter").get<double>());
   EXPECT_EQ(best.design().layout.rows, record.at("best").at("layout.rows").get<int>());
-  EXPECT_EQ(best.design().solver.measures.plateau_end, 0.4);
+  EXPECT_EQ(best.design().measures.plateau_end, 0.4);
   EXPECT_TRUE(best.validate().size() < 10);
   const auto written = nlohmann::json::parse(io::read_file(folder / "out/result.json"));
   EXPECT_EQ(written.at("schema"), "perfora.optimize/1");
