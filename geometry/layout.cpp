@@ -141,10 +141,10 @@ class Layouter {
   }
 
   std::vector<Perforation> shaped_or_refused(const std::vector<PlannedHole>& holes,
-                                             const std::vector<Point>& outline) const {
-    if (const auto fault = first_fault(holes, options_, outline))
+                                             const std::vector<Point>& corners) const {
+    if (const auto fault = first_fault(holes, options_, corners))
       refuse_unless(false, fault_key(fault->where), fault->problem, fault->allowed);
-    return shaped(holes, options_, outline);
+    return shaped(holes, options_, corners);
   }
 
   std::string fault_key(ShapeFault::Where where) const {
