@@ -8,6 +8,7 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/measure_unit.h"
+#include "report/verdict_line.h"
 
 namespace perfora::report {
 namespace {

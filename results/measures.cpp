@@ -35,12 +35,14 @@ double above_for_good(const std::vector<double>& strain, const std::vector<doubl
   return 0.0;
 }
 
-/// Strain of the largest energy efficiency: absorbed energy over (stress reached x 1), Li et al.'s definition with the
-/// running maximum of the stress.
-double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress) {
+/// Strain of the largest energy efficiency from `from` on: absorbed energy over (stress reached x 1), Li et al.'s
+/// definition with the running maximum of the stress.
+double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress,
+                                 double from = 0.0) {
   double absorbed = 0.0, best = -1.0, at = nan, largest = 0.0;
   for (std::size_t k = 0; k < strain.size(); ++k) {
-    if (k > 0) absorbed += 0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]);
+    if (strain[k] < from) continue;
+    if (k > 0 && strain[k - 1] >= from) absorbed += 0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]);
     largest = std::max(largest, stress[k]);
     if (largest > 0.0 && absorbed / largest > best) {
       best = absorbed / largest;
@@ -203,7 +205,8 @@ void measure_whole_curve(const History& history, const MeasuringFrame& frame, co
   }
   summary.efficiency_strain = largest_efficiency_strain(strain, stress);
   const double behind = behind_first_peak(summary, frame);
-  if (const auto found = found_plateau(strain, smooth, behind, summary.efficiency_strain, frame.options)) {
+  summary.densification_onset = largest_efficiency_strain(strain, smooth, behind);
+  if (const auto found = found_plateau(strain, smooth, behind, summary.densification_onset, frame.options)) {
     summary.found_plateau_start = found->start;
     summary.found_plateau_end = found->end;
     summary.found_plateau_length = found->end - found->start;

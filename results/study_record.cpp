@@ -97,9 +97,9 @@ void add_points(StudyRecord& record, const fs::path& file, const json& result) {
 
 void read_window(const json& object, const char* key, StudyRecord& record) {
   const json window = object.value(key, json());
-  if (!window.is_array() || window.size() != 2 || !window[0].is_number() || !window[1].is_number()) return;
-  record.window_start = window[0].get<double>();
-  record.window_end = window[1].get<double>();
+  if (!window.is_array() || window.size() != 2) return;
+  if (window[0].is_number()) record.window_start = window[0].get<double>();
+  if (window[1].is_number()) record.window_end = window[1].get<double>();
 }
 
 StudyRecord from_results(const fs::path& folder) {

@@ -50,7 +50,7 @@ struct Summary {
   double target_distance = not_reached, stroke_at_cap = not_reached, stress_until = not_reached;
   double found_plateau_start = not_reached, found_plateau_end = not_reached, found_plateau_length = not_reached,
          found_plateau_stress = not_reached;
-  double densification_strain = not_reached, efficiency_strain = not_reached;
+  double densification_strain = not_reached, efficiency_strain = not_reached, densification_onset = not_reached;
   double only_rising_strain = not_reached, recovery_strain = not_reached;
   double intermediate_peaks = not_reached;  ///< number of `peaks`
   /// Behind the first peak, at least 5 % of it above the valleys around them (topographic prominence).

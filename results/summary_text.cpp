@@ -123,15 +123,18 @@ std::string finals_text(const json& finals) {
   }
   const double gain = number_in(finals, "gain"), interval = number_in(finals, "gain_confidence_95");
   const double error = number_in(finals, "gain_standard_error");  // all that an older program left
-  if (!std::isfinite(interval) && std::isfinite(error))
-    return text + line_text("gain in score over the start",
-                            io::quantities({gain, error}, Dimension::none, " +- ") + " (standard error)");
-  if (!std::isfinite(interval)) return text;
   const auto significant = finals.find("significant");
+  const bool is_significant = significant != finals.end() && *significant == true;
+  if (!std::isfinite(interval) && std::isfinite(error)) {
+    text += line_text("gain in score over the start",
+                      io::quantities({gain, error}, Dimension::none, " +- ") + " (standard error)");
+    return text + line_text("", is_significant ? "more than two standard errors"
+                                               : "not more than two standard errors, so it may be chance");
+  }
+  if (!std::isfinite(interval)) return text;
   text += line_text("gain in score over the start",
                     io::quantities({gain, interval}, Dimension::none, " +- ") + " (95 %, paired)");
-  return text + line_text("", significant != finals.end() && *significant == true ? "a gain beyond its interval"
-                                                                                  : "it may be chance");
+  return text + line_text("", is_significant ? "a gain beyond its interval" : "it may be chance");
 }
 
 std::string optimize_text(const json& object, const KeyDimension& key_dimension) {

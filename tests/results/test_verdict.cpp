@@ -46,12 +46,11 @@ struct Scatter {
   }
 };
 
-constexpr Scatter scatters[] = {
-    {"normal", false, 0.2}, {"lognormal 0.2", true, 0.2}, {"lognormal 0.42", true, 0.42}};
+constexpr Scatter scatters[] = {{"normal", false, 0.2}, {"lognormal 0.2", true, 0.2}, {"lognormal 0.42", true, 0.42}};
 constexpr int samples = 4000;
 
-// The promise is 95 %; what is allowed is 90 to 98 %, since blocks scatter neither normally nor lognormally for certain.
-// With 4,000 samples the share itself is good to 0.7 % (two standard errors).
+// The promise is 95 %; what is allowed is 90 to 98 %, since blocks scatter neither normally nor lognormally for
+// certain. With 4,000 samples the share itself is good to 0.7 % (two standard errors).
 TEST(Interval, MeanIntervalsHoldTheMeanInNinetyToNinetyEightOfAHundredCases) {
   std::mt19937_64 random(7);
   for (const Scatter& scatter : scatters)
@@ -149,14 +148,16 @@ TEST(Verdict, OneMissedWishMissesTheTarget) {
   Target target = wish(1e5);
   limit(target, "first_peak_stress") = {1.5e5};
   std::vector<Evaluation> blocks = steady;
-  for (std::size_t k = 0; k < blocks.size(); ++k) blocks[k].summary.first_peak_stress = 3e5 + 1e3 * static_cast<double>(k);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    blocks[k].summary.first_peak_stress = 3e5 + 1e3 * static_cast<double>(k);
   const Verdict found = verdict(target, blocks);
   EXPECT_EQ(found.outcome, Outcome::missed);
   EXPECT_EQ(found.wishes[0].outcome, Outcome::met);
   EXPECT_EQ(found.wishes[1].outcome, Outcome::missed);
   EXPECT_NE(found.text.find("first peak stress 302 kPa"), std::string::npos) << found.text;
   EXPECT_NE(found.text.find("at most 150 kPa: a factor of 2.013 too high"), std::string::npos) << found.text;
-  EXPECT_EQ(found.text.find("plateau stress"), std::string::npos) << "a wish that is met does not decide: " << found.text;
+  EXPECT_EQ(found.text.find("plateau stress"), std::string::npos)
+      << "a wish that is met does not decide: " << found.text;
 }
 
 TEST(Verdict, SingleBlocksAskForMore) {

@@ -20,8 +20,9 @@ const std::filesystem::path designs = std::filesystem::path(PERFORA_SOURCE_DIR) 
 
 TEST(DesignFile, HasAllSections) {
   const DesignFile design;
-  const std::vector<std::string> wanted = {"cell",     "layout",   "packing",  "material", "noise",         "loading",
-                                           "dynamics", "boundary", "measures", "output",   "material_test", "seeds"};
+  const std::vector<std::string> wanted = {"cell",     "layout",   "packing",      "material",      "noise",
+                                           "loading",  "dynamics", "boundary",     "output",        "material_test",
+                                           "measures", "target",   "target.limit", "target.weight", "seeds"};
   EXPECT_EQ(design.schema().section_names(), wanted);
 }
 

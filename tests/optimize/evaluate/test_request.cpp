@@ -26,9 +26,10 @@ void perturb(io::Schema& schema, const io::Key& key) {
                                 {false},
                                 {std::string("elsewhere.csv")},
                                 {io::ValueList{{0.31}}},
-                                {io::ValueList{{io::ValueList{{0.01}, {0.02}, {0.003}}}}}};
+                                {io::ValueList{{io::ValueList{{0.01}, {0.02}, {0.003}}}}},
+                                {io::ValueList{{io::ValueList{{0.01}, {0.02}}}}}};
   for (const std::string& choice : key.choices) values.push_back({choice});
-  for (const double number : {0.31, 2.0, 3.0, 0.003, 17.0}) values.push_back({number});
+  for (const double number : {0.31, 2.0, 3.0, 0.003, 17.0, 0.6}) values.push_back({number});
   for (const io::Value& value : values) {
     try {
       schema.set(key.full_name(), value, {"test", 0, ""});

@@ -48,8 +48,7 @@ inline std::string study_text(const std::string& study_keys, const std::string& 
                               const std::string& constraints = "") {
   // One replicate a candidate unless the study says otherwise: its numbers are formulas.
   const bool replicated = study_keys.starts_with("replicates") || study_keys.find("\nreplicates") != std::string::npos;
-  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + (replicated ? "" : std::string("replicates = 1\n")) +
-         study_keys +
+  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + study_keys + (replicated ? "" : "\nreplicates = 1") +
          "\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n\"layout.diameter\" = [\"14 mm\", \"21 "
          "mm\"]\n\"layout.jitter\" = [0, \"1 mm\"]\n" +
          (arms.empty() ? "" : "[arms]\n" + arms + "\n") +
