@@ -14,6 +14,7 @@
 #include "geometry/layout_points.h"
 #include "geometry/layout_random.h"
 #include "geometry/layout_rows.h"
+#include "geometry/outline_file.h"
 #include "geometry/planned_hole.h"
 #include "geometry/random.h"
 #include "geometry/wall.h"
@@ -88,9 +89,7 @@ class Layouter {
         layout.perforations = at_random().perforations;
         break;
       case LayoutFamily::list:
-        layout.perforations = listed_holes(
-            options_, [](double diameter) { return Circle{diameter}; }, static_cast<std::size_t>(maximum_holes),
-            origin_of(schema_, "layout.holes"));
+        layout.perforations = listed();
         break;
     }
     return layout;
@@ -121,10 +120,31 @@ class Layouter {
  private:
   std::vector<Perforation> in_shape(std::vector<PlannedHole> holes) const {
     spread(holes, options_, seed_);
-    std::vector<Point> outline;
-    if (const auto fault = first_fault(holes, options_, outline))
+    return shaped_or_refused(holes, outline());
+  }
+
+  /// Rows that name no shape have that of the keys, with the row's diameter for length.
+  std::vector<Perforation> listed() const {
+    const std::vector<Point> corners = outline();
+    const auto usual = [&](double diameter) {
+      const PlannedHole hole{0.0, 0.0, diameter, breadth_for(options_, diameter), options_.angle};
+      return shaped_or_refused({hole}, corners).front().shape;
+    };
+    return listed_holes(options_, usual, static_cast<std::size_t>(maximum_holes), origin_of(schema_, "layout.holes"));
+  }
+
+  std::vector<Point> outline() const {
+    if (options_.shape != ShapeKind::polygon) return {};
+    refuse_unless(!options_.outline.empty(), "layout.outline", "a polygon needs its corners", "a file of WKT or CSV",
+                  "name the file, or take another layout.shape");
+    return read_outline(options_.outline);
+  }
+
+  std::vector<Perforation> shaped_or_refused(const std::vector<PlannedHole>& holes,
+                                             const std::vector<Point>& corners) const {
+    if (const auto fault = first_fault(holes, options_, corners))
       refuse_unless(false, fault_key(fault->where), fault->problem, fault->allowed);
-    return shaped(holes, options_, outline);
+    return shaped(holes, options_, corners);
   }
 
   std::string fault_key(ShapeFault::Where where) const {
@@ -174,6 +194,7 @@ class Layouter {
                   "give rows of x, y, diameter or the name of a CSV file");
     refuse_unless(options_.holes.size() % 3 == 0, "layout.holes", "a hole has three numbers", "rows of x, y, diameter");
     refuse_count(static_cast<std::int64_t>(options_.holes.size() / 3), "layout.holes");
+    check_sizes();
   }
 
   void check_lattice() const {

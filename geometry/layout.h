@@ -54,7 +54,7 @@ struct LayoutOptions {
   int count = 36;             ///< random: number of holes
   double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; hard-core placement keeps it
   std::vector<double> holes;  ///< list: rows of x, y, diameter
-  std::filesystem::path file; ///< list: CSV with columns x, y, diameter in metres instead of `holes`
+  std::filesystem::path file; ///< list: CSV of holes (layout_list.h) instead of `holes`
 };
 
 void describe(io::Schema& schema, LayoutOptions& options);

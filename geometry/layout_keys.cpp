@@ -22,8 +22,9 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
                {"slot", ShapeKind::slot},
                {"diamond", ShapeKind::diamond},
                {"triangle", ShapeKind::triangle},
-               {"teardrop", ShapeKind::teardrop}},
-              "Shape of the holes (every family but list).")
+               {"teardrop", ShapeKind::teardrop},
+               {"polygon", ShapeKind::polygon}},
+              "Shape of the holes; in a list of those that name none.")
       .real("diameter", options.diameter, Dimension::length, Range::positive(),
             "Length of the holes along their own axis, the diameter of circles (every family but list); of graded ones "
             "the mean over the rows.")
@@ -34,7 +35,11 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
       .real("angle", options.angle, Dimension::angle, any_angle,
             "Angle of the axis from the horizontal, anticlockwise.")
       .real("corner_radius", options.corner_radius, Dimension::length, Range::non_negative(),
-            "Radius that rounds the corners (diamond, triangle, polygon); the length and the breadth stay.")
+            "Radius that rounds the corners. Diamond, triangle, teardrop: the length and the breadth stay; polygon: "
+            "inside "
+            "its outline.")
+      .path("outline", options.outline,
+            "Corners of a polygon in turn, in any unit: a file of one WKT POLYGON, or CSV with columns x, y (polygon).")
       .real("size_spread", options.size_spread, Dimension::ratio, Range{0.0, 1.0, false, true},
             "Sizes at random: evenly from 1 - size_spread to 1 + size_spread times their own, shuffled by the seed.")
       .real("angle_spread", options.angle_spread, Dimension::angle, Range::between(0.0, std::numbers::pi),
@@ -135,7 +140,9 @@ void describe(io::Schema& schema, LayoutOptions& options) {
       .real("minimum_wall", options.minimum_wall, Dimension::length, Range::non_negative(),
             "A thinner wall is refused; hard-core placement keeps it.")
       .real_rows("holes", options.holes, 3, Dimension::length, "Rows of x, y, diameter (list).")
-      .path("file", options.file, "CSV with columns x, y, diameter in metres, instead of holes (list).");
+      .path("file", options.file,
+            "CSV with columns x, y, diameter in metres, instead of holes; of other shapes also shape, breadth, angle, "
+            "corner_radius, wkt (list).");
 }
 
 }  // namespace perfora::geometry

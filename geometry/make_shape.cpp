@@ -29,7 +29,7 @@ bool has_corners(ShapeKind kind) {
 }
 
 // The corners are put a little outside, so that the polygon has the area of the ellipse: of the height of the arc over
-// a chord, at most length/2 (1 - cos(pi/n)), a third is outside and two thirds are inside.
+// a chord, at most length/2 (1 - cos(pi/n)), two thirds are outside and a third is inside.
 Core ellipse(double length, double breadth) {
   const double half = 0.5 * std::max(length, breadth);
   const double exact = pi * std::sqrt(half / (3.0 * curve_tolerance));
@@ -136,8 +136,7 @@ std::optional<ShapeFault> fault_of_outline(const ShapeSize& size) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return fault("a corner is no number", "finite coordinates");
   if (size.outline.size() < 3) return fault("an outline of fewer than three corners", "three corners or more");
   const std::vector<Point> corners = true_corners(stretched(size));
-  if (corners.size() < 3 || !(std::abs(signed_area(corners)) > 0.0))
-    return fault("the corners of the outline lie on one line", "three corners that do not");
+  if (corners.size() < 3) return fault("the corners of the outline lie on one line", "three corners that do not");
   if (!is_simple(corners)) return fault("edges of the outline cross or touch", "an outline that meets itself nowhere");
   if (!fits_corners(anticlockwise(corners), size.corner_radius))
     return ShapeFault{Where::corner_radius, "the edges of the outline are too short for corners of this radius",

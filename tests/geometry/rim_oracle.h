@@ -61,20 +61,24 @@ class Rim {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < arcs_.size(); ++k) {
       const Arc &arc = arcs_[k], &next = arcs_[(k + 1) % arcs_.size()];
-      const double dx = p.x - arc.centre.x, dy = p.y - arc.centre.y;
-      const double turn = std::remainder(std::atan2(dy, dx) - 0.5 * (arc.from + arc.to), 2.0 * std::numbers::pi);
       const Point a = on(arc, arc.to), b = on(next, next.from);
-      if (std::abs(turn) <= 0.5 * (arc.to - arc.from))
-        least = std::min(least, std::abs(std::hypot(dx, dy) - arc.radius));
+      if (arc.radius > 0.0) {
+        const double dx = p.x - arc.centre.x, dy = p.y - arc.centre.y;
+        const double turn = std::remainder(std::atan2(dy, dx) - 0.5 * (arc.from + arc.to), 2.0 * std::numbers::pi);
+        if (std::abs(turn) <= 0.5 * (arc.to - arc.from))
+          least = std::min(least, std::abs(std::hypot(dx, dy) - arc.radius));
+      }
       const double ux = b.x - a.x, uy = b.y - a.y, squared = ux * ux + uy * uy;
       const double t = squared > 0.0 ? std::clamp(((p.x - a.x) * ux + (p.y - a.y) * uy) / squared, 0.0, 1.0) : 0.0;
-      least = std::min(least, std::hypot(p.x - a.x - t * ux, p.y - a.y - t * uy));
+      const double away_x = p.x - a.x - t * ux, away_y = p.y - a.y - t * uy;
+      least = std::min(least, std::sqrt(away_x * away_x + away_y * away_y));
     }
     return least;
   }
 
  private:
   static Point on(const Arc& arc, double angle) {
+    if (arc.radius == 0.0) return arc.centre;
     return {arc.centre.x + arc.radius * std::cos(angle), arc.centre.y + arc.radius * std::sin(angle)};
   }
   std::vector<Arc> arcs_;
@@ -82,14 +86,14 @@ class Rim {
   double length_ = 0.0;
 };
 
-/// The least value of f over [low, high]: of `samples` values the eight least are followed down by finer and finer
+/// The least value of f over [low, high]: of `samples` values the four least are followed down by finer and finer
 /// grids.
 template <class Function>
 double least_of(const Function& f, double low, double high, int samples) {
   std::vector<std::pair<double, double>> found;
   const double spacing = (high - low) / samples;
   for (int k = 0; k <= samples; ++k) found.emplace_back(f(low + k * spacing), low + k * spacing);
-  const auto middle = found.begin() + std::min<std::ptrdiff_t>(8, static_cast<std::ptrdiff_t>(found.size()));
+  const auto middle = found.begin() + std::min<std::ptrdiff_t>(4, static_cast<std::ptrdiff_t>(found.size()));
   std::partial_sort(found.begin(), middle, found.end());
   double least = found.front().first;
   for (auto start = found.begin(); start != middle; ++start) {
