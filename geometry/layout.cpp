@@ -200,7 +200,10 @@ void describe(io::Schema& schema, LayoutOptions& options) {
   schema.section("cell", "The periodic rectangle the block is cut from.")
       .real("width", options.width, Dimension::length, Range::positive(), "Width of the cell, the period in x.")
       .real("height", options.height, Dimension::length, Range::positive(),
-            "Height of the cell, the period in y, the direction of loading.");
+            "Height of the cell, the period in y, the direction of loading.")
+      .real("scale", options.scale, Dimension::none, {1e-3, 1e3, false, false},
+            "Factor on every length of [cell] and [layout], the discs left as they are: the same pattern this many times "
+            "as large in the same material (docs/user/theory.md, \"Grade, strength, scale\").");
   schema.section("layout", "Where the perforations are.")
       .choice("family", options.family,
               {{"none", LayoutFamily::none},
@@ -270,7 +273,7 @@ bool equal_holes(LayoutFamily family) {
 PerforationLayout place_perforations(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
   const Layouter layouter(options, seed, schema);
   layouter.check();
-  return layouter.place();
+  return layouter.place().scaled(options.scale);
 }
 
 PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
@@ -289,7 +292,7 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
                                " do not fit at random into the cell",
                            "holes with half their wall covering less than about 80 % of the cell",
                            "lower layout.count, layout.diameter or layout.minimum_wall");
-    return {options.width, options.height, std::move(placement.perforations)};
+    return PerforationLayout{options.width, options.height, std::move(placement.perforations)}.scaled(options.scale);
   }
   PerforationLayout layout = layouter.place();
   for (std::size_t k = 0; k < layout.perforations.size(); ++k)
@@ -309,7 +312,7 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
                          "the wall between " + pair + " is " + length_text(wall.thickness),
                          "at least the minimum wall of " + length_text(options.minimum_wall),
                          "lower the diameter, the jitter or the number of holes, or ask for less");
-  return layout;
+  return layout.scaled(options.scale);
 }
 
 }  // namespace perfora::geometry

@@ -16,6 +16,7 @@ enum class LayoutFamily { none, square, staggered, rotated, graded, random, list
 struct LayoutOptions {
   double width = 0.150;
   double height = 0.150;
+  double scale = 1.0;         ///< factor on every length here: what is laid is this many times as large
   LayoutFamily family = LayoutFamily::square;
   double diameter = 0.020;    ///< graded: mean of the rows
   int rows = 6;
@@ -28,6 +29,9 @@ struct LayoutOptions {
   double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; random: kept while placing
   std::vector<double> holes;  ///< list: rows of x, y, diameter
   std::filesystem::path file; ///< list: CSV with columns x, y, diameter in metres instead of `holes`
+
+  double cell_width() const { return scale * width; }  ///< as laid
+  double cell_height() const { return scale * height; }
 };
 
 void describe(io::Schema& schema, LayoutOptions& options);

@@ -54,6 +54,7 @@ struct Circle {
   double shared_area(double distance) const;
   std::vector<Arc> outline(Point centre, double tolerance) const;
   Circle clear_of(std::span<const NearDisc> discs, double reach) const;
+  Circle scaled(double factor) const;
 };
 double signed_gap(const Circle& first, Point first_centre, const Circle& second, Point second_centre);
 
