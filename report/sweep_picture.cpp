@@ -41,6 +41,7 @@ SweepPicture sweep_picture(const results::SweepRecord& record) {
   SweepPicture picture;
   picture.title = record.title;
   picture.measures = record.measures;
+  picture.measured = record.measured;
   std::vector<std::string> groups;
   for (const results::SweepCase& one : record.cases) {
     if (!one.can_run) continue;

@@ -50,6 +50,8 @@ struct SweepRecord {
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
   /// where an older program left them out.
   std::vector<double> plateau_window;
+  std::string design;           ///< of an ensemble: its resolved configuration; empty where it is not known
+  std::vector<Curve> measured;  ///< of experiments, for pictures; no reader fills it
 };
 
 /// Reads a sweep's folder or result.json; without the runs. Throws io::InputError for anything else.

@@ -5,6 +5,7 @@
 
 #include "geometry/layout.h"
 #include "io/text.h"
+#include "results/curve_file.h"
 
 namespace perfora::optimize {
 namespace {
@@ -78,6 +79,8 @@ results::StudyRecord study_record(StudyRun& run) {
   record.target = study.target.plateau_stress;
   record.window_start = study.target.window[0];
   record.window_end = study.target.window[1];
+  const std::filesystem::path& measured = study.start->design().solver.output.curve;
+  if (!measured.empty()) record.measured.push_back(results::read_curve(measured));
   add_points(record, run);
   if (!plan.best) return record;
   const auto best = shown(run, *plan.best);
