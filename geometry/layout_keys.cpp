@@ -22,8 +22,9 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
                {"slot", ShapeKind::slot},
                {"diamond", ShapeKind::diamond},
                {"triangle", ShapeKind::triangle},
-               {"teardrop", ShapeKind::teardrop}},
-              "Shape of the holes (every family but list).")
+               {"teardrop", ShapeKind::teardrop},
+               {"polygon", ShapeKind::polygon}},
+              "Shape of the holes; of a list those that name none of their own.")
       .real("diameter", options.diameter, Dimension::length, Range::positive(),
             "Length of the holes along their own axis, the diameter of circles (every family but list); of graded ones "
             "the mean over the rows.")
@@ -35,6 +36,8 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
             "Angle of the axis from the horizontal, anticlockwise.")
       .real("corner_radius", options.corner_radius, Dimension::length, Range::non_negative(),
             "Radius that rounds the corners (diamond, triangle, polygon); the length and the breadth stay.")
+      .path("outline", options.outline,
+            "Corners of a polygon, in any unit: a file of WKT, or CSV with columns x, y (polygon).")
       .real("size_spread", options.size_spread, Dimension::ratio, Range{0.0, 1.0, false, true},
             "Sizes at random: evenly from 1 - size_spread to 1 + size_spread times their own, shuffled by the seed.")
       .real("angle_spread", options.angle_spread, Dimension::angle, Range::between(0.0, std::numbers::pi),

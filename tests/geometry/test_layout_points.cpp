@@ -89,12 +89,12 @@ CellMeasures cells_of(const std::vector<Point>& points, double w, double h, int 
 // its area squared is least for the regular hexagon, 5/(36 sqrt(3)) = 0.0802 (Newman 1982), and 1/12 for the square.
 TEST(Points, VoronoiPointsAreTheCentroidsOfTheirCells) {
   for (const int count : {9, 40, 90})
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const std::vector<Point> points = voronoi_points(width, height, count, seed);
       ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
       EXPECT_TRUE(inside(points, width, height));
       EXPECT_EQ(points, voronoi_points(width, height, count, seed));
-      const CellMeasures cells = cells_of(points, width, height, 300);
+      const CellMeasures cells = cells_of(points, width, height, 200);
       EXPECT_LT(cells.off_centre, 0.01 * largest_distance(width, height, count)) << count << ", seed " << seed;
       EXPECT_GT(cells.moment, 0.0801);
       EXPECT_LT(cells.moment, 1.0 / 12.0);
