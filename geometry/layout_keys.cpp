@@ -24,7 +24,7 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
                {"triangle", ShapeKind::triangle},
                {"teardrop", ShapeKind::teardrop},
                {"polygon", ShapeKind::polygon}},
-              "Shape of the holes; in a list of those that name none.")
+              "Shape of the holes; of a list those that name none of their own.")
       .real("diameter", options.diameter, Dimension::length, Range::positive(),
             "Length of the holes along their own axis, the diameter of circles (every family but list); of graded ones "
             "the mean over the rows.")
