@@ -44,7 +44,7 @@ constexpr double porosity = 0.10;
 
 // E*/E along both axes within 5 % of 1/(1 + f h/(1 - f)), h what one hole adds, f the porosity (Mori and Tanaka's
 // estimate; in a square array of circles at f = 0.1 it is off by 1 % of E, HoleArray). The skin of softer discs makes a
-// hole look wider by a few per cent of its radius: 2 to 3 % of E here. Holes along x and along y, as x and y of a
+// hole look wider by a few per cent of its radius: up to 3 % of E here. Holes along x and along y, as x and y of a
 // packing are alike.
 void expect_moduli(const Case& one, std::uint64_t seed) {
   double young_along = 0.0, young_across = 0.0;
