@@ -8,7 +8,9 @@
 
 #include "geometry/packing_file.h"
 #include "io/hdf5.h"
+#include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/packing_cache.h"
+#include "solver/bond_network.h"
 #include "tests/optimize/evaluate/design_support.h"
 
 namespace perfora::optimize {
@@ -61,6 +63,47 @@ TEST_F(Evaluating, AnotherPackingIsRefusedWithBothValues) {
   const std::string text = complaint([&] { require_packing_file(other, folder_ / "p.h5", 0); });
   EXPECT_THAT(text, HasSubstr("77"));
   EXPECT_THAT(text, HasSubstr(std::to_string(file.design().seeds.effective(0).packing)));
+}
+
+// Discs clipped elsewhere by a slot of 5 x 1 mm across the edge: without being told of it bonds span the slot, which is
+// narrower than a bond is long; told by a list none does, and porosity and walls know it.
+TEST_F(Evaluating, AnImportedPackingCanBeGivenItsOpenings) {
+  folder_.file("holes.csv", "shape,x,y,diameter,breadth,angle\nslot,11 mm,6 mm,5 mm,1 mm,30 deg\n");
+  const std::vector<std::string> list{"layout.family=list", "layout.file=" + (folder_ / "holes.csv").string()};
+  const PackedDesign native = pack_design(design(list), {}, 0);
+  {
+    std::ofstream csv(folder_ / "discs.csv");
+    csv.precision(17);
+    csv << "x,y,radius\n";
+    for (std::size_t k = 0; k < native.clipped.x.size(); ++k)
+      csv << native.clipped.x[k] << ',' << native.clipped.y[k] << ',' << native.clipped.radius[k] << '\n';
+  }
+  const std::string import = "packing.file=" + (folder_ / "discs.csv").string();
+  const DesignFile told = design({list[0], list[1], import});
+  const PackedDesign with = pack_design(told, {}, 0),
+                     without = pack_design(design({"layout.family=none", import}), {}, 0);
+  EXPECT_EQ(with.clipped.size(), native.clipped.size());
+  EXPECT_EQ(with.summary.porosity, native.summary.porosity);
+  EXPECT_EQ(with.summary.thinnest_wall.thickness, native.summary.thinnest_wall.thickness);
+  const double diameter = with.periodic.mean_diameter();
+  const auto spanning = [&](const geometry::PerforationLayout& layout) {
+    const solver::BondNetwork net = solver::make_bond_network(with.clipped, layout, {}, {}, 1, diameter);
+    int count = 0;
+    for (std::size_t b = 0; b < net.i.size(); ++b)
+      for (const geometry::Perforation& hole : with.layout.cut_out(true, true))
+        for (const double turn : {-1.0, 0.0, 1.0}) {  // bonds across the upright edges, too
+          const double x = with.clipped.x[static_cast<std::size_t>(net.i[b])] + turn * 0.012,
+                       y = with.clipped.y[static_cast<std::size_t>(net.i[b])];
+          const double dip = hole.segment_depth(x, y, x + net.reference_length[b] * net.direction_x[b],
+                                                y + net.reference_length[b] * net.direction_y[b]);
+          count += dip > (0.25 + 1e-9) * diameter ? 1 : 0;
+        }
+    return count;
+  };
+  EXPECT_EQ(spanning(with.layout), 0);
+  EXPECT_GT(spanning(without.layout), 30);
+  EXPECT_LT(with.summary.bonds_per_disc, without.summary.bonds_per_disc);
+  EXPECT_EQ(estimate_design(told, 1).discs, with.clipped.size());
 }
 
 TEST_F(Evaluating, ReplicatesDifferAndRepeat) {
