@@ -35,20 +35,33 @@ double above_for_good(const std::vector<double>& strain, const std::vector<doubl
   return 0.0;
 }
 
-/// Strain of the largest energy efficiency from `from` on: absorbed energy over (stress reached x 1), Li et al.'s
-/// definition with the running maximum of the stress.
+/// Strain of the largest energy efficiency: energy absorbed from `from` on over (stress reached from `reached_from` on
+/// x 1), Li et al.'s definition with the running maximum of the stress.
 double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress,
-                                 double from = 0.0) {
+                                 double from = 0.0, double reached_from = 0.0) {
   double absorbed = 0.0, best = -1.0, at = nan, largest = 0.0;
   for (std::size_t k = 0; k < strain.size(); ++k) {
     if (strain[k] < from) continue;
     if (k > 0 && strain[k - 1] >= from) absorbed += 0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]);
+    if (strain[k] < reached_from) continue;
     largest = std::max(largest, stress[k]);
     if (largest > 0.0 && absorbed / largest > best) {
       best = absorbed / largest;
       at = strain[k];
     }
   }
+  return at;
+}
+
+/// Where the first peak has come down: the smallest smoothed stress within the length of a found plateau behind it.
+double foot_of_first_peak(const std::vector<double>& strain, const std::vector<double>& smooth, double behind,
+                          double within) {
+  double least = std::numeric_limits<double>::infinity(), at = behind;
+  for (std::size_t k = 0; k < strain.size() && strain[k] <= behind + within; ++k)
+    if (strain[k] >= behind && smooth[k] < least) {
+      least = smooth[k];
+      at = strain[k];
+    }
   return at;
 }
 
@@ -205,7 +218,10 @@ void measure_whole_curve(const History& history, const MeasuringFrame& frame, co
   }
   summary.efficiency_strain = largest_efficiency_strain(strain, stress);
   const double behind = behind_first_peak(summary, frame);
-  summary.densification_onset = largest_efficiency_strain(strain, smooth, behind);
+  // The flank of the peak is part of the energy, but not the stress that the dense branch is held against.
+  const bool has_peak = !std::isnan(summary.first_peak_strain);
+  const double foot = has_peak ? foot_of_first_peak(strain, smooth, behind, frame.options.found_length) : 0.0;
+  summary.densification_onset = largest_efficiency_strain(strain, smooth, behind, foot);
   if (const auto found = found_plateau(strain, smooth, behind, summary.densification_onset, frame.options)) {
     summary.found_plateau_start = found->start;
     summary.found_plateau_end = found->end;

@@ -164,7 +164,8 @@ std::string pair_text(const geometry::ThinnestWall& wall) {
 double diameter_for(double wall, double horizons, const Design& design) {
   const double exact = wall / (horizons * design.solver.material.horizon);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
-  return std::floor(exact / digit) * digit;
+  constexpr double rounding = 1e-9;  // of digits that are exact
+  return std::floor(exact / digit + rounding) * digit;
 }
 
 void check_walls(const geometry::PerforationLayout& layout, const Design& design, const io::Schema& schema,
