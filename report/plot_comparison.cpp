@@ -25,6 +25,8 @@ constexpr double stress_decades = 1000.0;
 /// Empty share above the highest first peak.
 constexpr double headroom = 1.15;
 constexpr double percent = 100.0, kilo = 1e-3;
+/// Strain up to which a measured curve counts for the height of its first peak where no plateau window says.
+constexpr double latest_peak = 0.1;
 
 struct Drawn {
   const LabelledRun* row = nullptr;
@@ -112,10 +114,12 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Measured& 
     for (const double value : one.smooth.stress)
       if (value > 0.0) lowest = std::min(lowest, value);
   }
+  const double early = window ? window->first : latest_peak;
   for (const results::Curve& curve : measured)
     for (std::size_t k = 0; k < curve.strain.size(); ++k) {
       end = std::max(end, percent * curve.strain[k]);
       highest = std::max(highest, kilo * curve.stress[k]);
+      if (curve.strain[k] <= early) peak = std::max(peak, kilo * curve.stress[k]);
     }
   if (!(end > 0.0) || !(highest > 0.0)) end = peak = highest = lowest = 1.0;  // no row yet: empty axes
   const Axis strain{0.0, end, "engineering strain (%)"};

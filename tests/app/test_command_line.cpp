@@ -145,6 +145,27 @@ TEST_F(CommandLine, EvaluateWritesItsFilesAndPrintsOneObject) {
   EXPECT_FALSE(fs::exists(folder_ / "never.png"));
 }
 
+TEST_F(CommandLine, MeasuredCurvesStandBesideRuns) {
+  std::ofstream(folder_ / "press.csv") << "strain [%], stress [MPa]\n0, 0\n1, 0.5\n2, 0.1\n";
+  ASSERT_EQ(run("evaluate d.toml -o r.h5 --set output.curve=press.csv --quiet").exit_code, 0);
+  const Outcome named = run("plot r.h5 -o named.png");
+  EXPECT_EQ(named.exit_code, 0) << named.error;
+  EXPECT_EQ(run("plot r.h5 --curve r.csv --curve press.csv -o two.png").exit_code, 0);
+  EXPECT_EQ(run("plot r.h5 r.h5 --curve press.csv -o both.png").exit_code, 0);
+  fs::remove(folder_ / "press.csv");
+  const Outcome gone = run("plot r.h5 -o without.png");
+  EXPECT_EQ(gone.exit_code, 0);
+  EXPECT_THAT(gone.error, HasSubstr("the measured curve of the design is not drawn"));
+  EXPECT_NE(read_text(folder_ / "named.png"), read_text(folder_ / "without.png"));
+  const Outcome refused = run("plot r.h5 --curve press.csv -o never.png");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("press.csv: does not exist"));
+  const Outcome frames = run("plot r.h5 --collapse --curve r.csv -o never.png");
+  EXPECT_EQ(frames.exit_code, 1);
+  EXPECT_THAT(frames.error, HasSubstr("--curve"));
+  EXPECT_FALSE(fs::exists(folder_ / "never.png"));
+}
+
 TEST_F(CommandLine, ElasticAnswerInsteadOfARun) {
   const Outcome outcome = run("evaluate d.toml --elastic --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -353,6 +374,15 @@ TEST_F(CommandLine, CalibrationResumesFromItsJournal) {
   }
   EXPECT_TRUE(fs::exists(folder_ / "whole" / "material.toml") && fs::exists(folder_ / "whole" / "confirmation.png"));
   EXPECT_EQ(run("check whole/material.toml").exit_code, 0);
+  // It ends with the lines that hand the material to another design.
+  const Outcome told = run("calibrate c.toml -o whole --resume" + small.substr(0, small.find(" --json")));
+  ASSERT_EQ(told.exit_code, 0) << told.error;
+  const std::string lines = "[material]\nfrom = \"whole/calibrated.toml\"\n";
+  EXPECT_TRUE(told.output.ends_with(lines)) << told.output;
+  std::ofstream(folder_ / "m.toml") << "[cell]\nwidth = \"12 mm\"\nheight = \"12 mm\"\n[layout]\nrows = 1\ncolumns = "
+                                       "1\ndiameter = \"6 mm\"\n"
+                                    << lines;
+  EXPECT_EQ(run("check m.toml").exit_code, 0);
   EXPECT_EQ(run("calibrate c.toml -o whole" + small).exit_code, 1) << "exists";
   // Cut the journal after its second point, as a kill there would leave it.
   fs::create_directory(folder_ / "cut");

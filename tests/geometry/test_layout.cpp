@@ -196,12 +196,16 @@ TEST(Layout, ScaleMultipliesEveryLength) {
   const TemporaryCsv csv("x,y,diameter\n0.02,0.03,0.008\n0.1,0.1,0.012\n");
   for (const LayoutFamily family :
        {LayoutFamily::none, LayoutFamily::square, LayoutFamily::staggered, LayoutFamily::rotated, LayoutFamily::graded,
-        LayoutFamily::random, LayoutFamily::list}) {
+        LayoutFamily::random, LayoutFamily::oblique, LayoutFamily::rows, LayoutFamily::list}) {
     LayoutOptions options;
     options.family = family;
     options.diameter = 0.012;
     options.jitter = 0.001;
     options.minimum_wall = 0.002;
+    if (family == LayoutFamily::oblique || family == LayoutFamily::rows) {
+      options.shape = ShapeKind::slot;
+      options.aspect = 3.0;
+    }
     if (family == LayoutFamily::list) options.file = csv.path();
     const PerforationLayout plain = make_layout(options, 7);
     options.scale = 2.0;

@@ -148,6 +148,16 @@ TEST(PlotRun, WritesEveryKindOfPicture) {
   EXPECT_TRUE(io::read_file(folder / "a.svg").starts_with("<?xml"));
 }
 
+// Nothing numerical is expected: one more curve and its name change the picture, wherever it reaches.
+TEST(PlotRun, DrawsMeasuredCurvesBesideTheRun) {
+  const auto folder = fresh_folder("measured");
+  write_run(small_run(), folder / "R.h5");
+  plot_run(folder / "R.h5", folder / "a.svg");
+  const results::Curve press{{0.0, 0.01, 0.9}, {0.0, 1e6, 2e3}, "press 7"};
+  plot_run(folder / "R.h5", folder / "b.svg", {.title = "", .target_stress = {}, .measured = {press, press}});
+  EXPECT_GT(std::filesystem::file_size(folder / "b.svg"), std::filesystem::file_size(folder / "a.svg"));
+}
+
 TEST(PlotRun, RefusesOtherExtensions) {
   const auto folder = fresh_folder("extension");
   write_run(small_run(), folder / "R.h5");
