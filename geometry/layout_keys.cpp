@@ -112,9 +112,10 @@ void describe(io::Schema& schema, LayoutOptions& options) {
       .real("width", options.width, Dimension::length, Range::positive(), "Width of the cell, the period in x.")
       .real("height", options.height, Dimension::length, Range::positive(),
             "Height of the cell, the period in y, the direction of loading.")
-      .real("scale", options.scale, Dimension::none, {1e-3, 1e3, false, false},
-            "Factor on every length of [cell] and [layout], the discs left as they are: the same pattern this many times "
-            "as large in the same material (docs/user/theory.md, \"Grade, strength, scale\").");
+      .real(
+          "scale", options.scale, Dimension::none, {1e-3, 1e3, false, false},
+          "Factor on every length of [cell] and [layout], the discs left as they are: the same pattern this many times "
+          "as large in the same material (docs/user/theory.md, \"Grade, strength, scale\").");
   io::Section section = schema.section("layout", "Where the perforations are.");
   section.choice("family", options.family,
                  {{"none", LayoutFamily::none},

@@ -25,6 +25,8 @@ constexpr double fewest_discs_across = 10.0;
 /// Up to this ratio of <d> to the reference the thresholds are taken as stated for this packing: rounding in a design
 /// file.
 constexpr double coarse_tolerance = 1.01;
+/// A wall that is exactly as thick as wanted comes out thinner by no more than this share of it.
+constexpr double wall_rounding = 1e-9;
 
 std::string length_text(double metres) {
   return io::quantity(metres, io::Dimension::length);
@@ -164,16 +166,14 @@ std::string pair_text(const geometry::ThinnestWall& wall) {
 double diameter_for(double wall, double horizons, const Design& design) {
   const double exact = wall / (horizons * design.solver.material.horizon);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
-  constexpr double rounding = 1e-9;  // of digits that are exact
-  return std::floor(exact / digit + rounding) * digit;
+  return std::floor(exact / digit * (1.0 + wall_rounding)) * digit;
 }
 
 void check_walls(const geometry::PerforationLayout& layout, const Design& design, const io::Schema& schema,
                  double horizon_radius, std::vector<std::string>& warnings) {
   if (layout.perforations.empty()) return;
   const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
-  constexpr double rounding = 1e-9;
-  if (wall.thickness < (1.0 - rounding) * horizon_radius)
+  if (wall.thickness < (1.0 - wall_rounding) * horizon_radius)
     throw io::InputError(
         schema.origin(geometry::size_key(design.layout)),
         fmt::format("the thinnest wall, {} between {}, is thinner than the horizon of {}, so "
@@ -183,7 +183,7 @@ void check_walls(const geometry::PerforationLayout& layout, const Design& design
         fmt::format("take smaller or fewer holes, discs of a mean diameter of at most {} (packing.mean_diameter) or a "
                     "smaller material.horizon; a random layout keeps walls of layout.minimum_wall",
                     length_text(diameter_for(wall.thickness, 1.0, design))));
-  if (wall.thickness < 2.0 * horizon_radius)
+  if (wall.thickness < (1.0 - wall_rounding) * 2.0 * horizon_radius)
     warnings.push_back(
         fmt::format("the thinnest wall, {} between {}, is thinner than two horizons ({}): every disc in "
                     "it feels an edge, so "
