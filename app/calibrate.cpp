@@ -56,6 +56,11 @@ int calibrate(const CalibrateFlags& flags) {
     io::log_warning("stopped; finished tests are kept; continue with the same command and --resume");
   else
     io::log_info("written: " + options.folder.string());
+  if (!result.material_file.empty() && !flags.common.json)
+    print_text(
+        fmt::format("To use this material, write in a design (the path is relative to its file):\n[material]\n"
+                    "from = \"{}\"\n",
+                    result.material_file.string()));
   return exit_code_of(result.status);
 }
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "app/measured_curves.h"
 #include "io/error.h"
 #include "report/plot.h"
 #include "report/plot_study.h"
@@ -17,6 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse_curves(const fs::path& folder) {
+  throw io::InputError({"--curve", 0, ""}, "is drawn beside curves of runs, and " + folder.string() + " has none", "",
+                       "leave it out, or give runs, an ensemble, a sweep or a study");
+}
+
 void draw_cases(const results::SweepRecord& record, const fs::path& out, const std::string& title) {
   report::SweepPicture picture = report::sweep_picture(record);
   if (!title.empty()) picture.title = title;
@@ -25,19 +33,25 @@ void draw_cases(const results::SweepRecord& record, const fs::path& out, const s
 
 }  // namespace
 
-void draw_campaign(const fs::path& folder, const fs::path& out, const std::string& title) {
+void draw_campaign(const fs::path& folder, const fs::path& out, const std::string& title,
+                   const std::vector<std::string>& curve_files) {
   const std::string kind = results::campaign_kind(folder);
   if (kind == "study") {
     results::StudyRecord record = results::read_study_record(folder);
     if (!title.empty()) record.title = title;
+    for (results::Curve& curve : measured_curves(curve_files, {})) record.measured.push_back(std::move(curve));
     report::plot_study(record, out);
   } else if (kind == "sweep") {
     results::SweepRecord record = results::read_sweep_record(folder);
     results::read_sweep_runs(record);
+    record.measured = measured_curves(curve_files, {});
     draw_cases(record, out, title);
   } else if (kind == "ensemble") {
-    draw_cases(results::read_ensemble_record(folder), out, title);
+    results::SweepRecord record = results::read_ensemble_record(folder);
+    record.measured = measured_curves(curve_files, {record.design});
+    draw_cases(record, out, title);
   } else if (kind == "calibration") {
+    if (!curve_files.empty()) refuse_curves(folder);
     report::PlotOptions options;
     options.title = title;
     report::plot_reachable(results::read_calibration_record(folder), out, options);

@@ -12,6 +12,7 @@
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
+#include "results/study_record.h"
 
 namespace perfora::app {
 
@@ -69,6 +70,7 @@ void draw(const optimize::StudyRun& run) {
   report::PlotOptions options;
   options.title = "best design of " + run.study().file.stem().string();
   if (run.study().target.plateau_stress > 0.0) options.target_stress = run.study().target.plateau_stress;
+  options.measured = results::read_study_record(folder).measured;
   report::plot_run(folder / "best.h5", folder / "best.png", options);
 }
 

@@ -9,6 +9,7 @@
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/measured_curves.h"
 #include "io/error.h"
 #include "io/hdf5.h"
 #include "optimize/evaluate/design.h"
@@ -24,6 +25,7 @@ struct PlotFlags {
   std::vector<std::string> inputs;
   std::string output;
   std::string title;
+  std::vector<std::string> curves;  ///< CSV files of measured curves
   bool collapse = false;
 };
 
@@ -71,14 +73,31 @@ void draw_folder(const PlotFlags& flags, const fs::path& folder, const fs::path&
   if (flags.inputs.size() > 1)
     throw io::InputError({folder.string(), 0, ""}, "several files are compared as runs, and this is a folder", "",
                          "give run files of perfora evaluate, or one folder alone");
-  if (!flags.collapse) return draw_campaign(folder, output, flags.title);
+  if (!flags.collapse) return draw_campaign(folder, output, flags.title, flags.curves);
   if (!draw_collapse(folder, output, flags.title))
     throw io::InputError({folder.string(), 0, ""}, "no run file was kept here, and --collapse draws their frames", "",
                          "run the sweep with run_files = true under [sweep]");
 }
 
+/// One run, with what its design names and --curve adds.
+void draw_run(const fs::path& input, const fs::path& output, const PlotFlags& flags) {
+  report::PlotOptions options;
+  options.title = flags.title;
+  const io::Hdf5Reader file(input);
+  options.measured = measured_curves(flags.curves, {file.has("/config") ? file.text("/config") : ""});
+  report::plot_run(input, output, options);
+}
+
+/// --curve with a picture that has no curves of runs.
+void refuse_curves(const PlotFlags& flags, const std::string& what) {
+  if (!flags.curves.empty())
+    throw io::InputError({"--curve", 0, ""}, "is drawn beside curves of runs, and " + what + " has none", "",
+                         "leave it out, or give runs, an ensemble, a sweep or a study");
+}
+
 void draw(const PlotFlags& flags, const fs::path& output) {
   const fs::path input = flags.inputs.front();
+  if (flags.collapse) refuse_curves(flags, "--collapse");
   for (const fs::path one : flags.inputs)
     if (fs::is_directory(one)) return draw_folder(flags, one, output);
   report::PlotOptions options;
@@ -88,18 +107,24 @@ void draw(const PlotFlags& flags, const fs::path& output) {
     if (options.title.empty())
       options.title = runs.size() > 1 ? fmt::format("{} runs", runs.size()) : input.stem().string();
     if (runs.size() == 1) runs.front().label.clear();  // the heading says it
+    std::vector<std::string> configurations;
+    for (const report::LabelledRun& run : runs) configurations.push_back(run.run.provenance.config);
+    if (!flags.collapse) options.measured = measured_curves(flags.curves, configurations);
     flags.collapse ? report::plot_collapse(runs, output, options) : report::plot_comparison(runs, output, options);
     return;
   }
   const std::string format = format_of(input);
-  if (format.starts_with("perfora.pack/"))
+  const bool pack = format.starts_with("perfora.pack/"), test = format.starts_with("perfora.test/"),
+             elastic = format.starts_with("perfora.elastic/");
+  if (pack || test || elastic) refuse_curves(flags, input.string());
+  if (pack)
     report::plot_packing(input, output, options);
-  else if (format.starts_with("perfora.test/"))
+  else if (test)
     report::plot_material_tests(input, output, options);
-  else if (format.starts_with("perfora.elastic/"))
+  else if (elastic)
     report::plot_elastic(input, output, options);
   else
-    report::plot_run(input, output, options);
+    draw_run(input, output, flags);
 }
 
 /// "DIR" of "DIR/": its name is that of the picture.
@@ -137,6 +162,12 @@ void add_plot(CLI::App& program, int& exit_code) {
                       "Picture: .png, .svg or .pdf (default: FILE's name + .png, comparison.png of several)");
   command->add_option("--title", flags->title, "Heading of the picture (default: FILE's name, or how many runs)")
       ->type_name("TEXT");
+  command
+      ->add_option("--curve", flags->curves,
+                   "Measured curve to draw beside those of runs: CSV with a first line such as \"strain [%], stress "
+                   "[MPa]\" (repeatable)")
+      ->type_name("CSV")
+      ->allow_extra_args(false);
   command->add_flag("--collapse", flags->collapse,
                     "Of runs, and of a sweep that keeps its run files: frames side by side instead of curves");
   add_common_flags(*command, flags->common, Uses::files_only);

@@ -301,7 +301,7 @@ bool equal_circles(const LayoutOptions& options) {
 PerforationLayout place_perforations(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
   const Layouter layouter(options, seed, schema);
   layouter.check();
-  return layouter.place();
+  return layouter.place().scaled(options.scale);
 }
 
 PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema) {
@@ -322,7 +322,7 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
                            "holes with half their wall covering less than about 80 % of the cell",
                            "lower layout.count, layout.diameter or layout.minimum_wall");
     layout.perforations = std::move(placement.perforations);
-    if (equal_circles(options) && options.placement == Placement::hard_core) return layout;
+    if (equal_circles(options) && options.placement == Placement::hard_core) return layout.scaled(options.scale);
   } else {
     layout = layouter.place();
   }
@@ -346,7 +346,7 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
                          "the wall between " + pair + " is " + length_text(wall.thickness),
                          "at least the minimum wall of " + length_text(options.minimum_wall),
                          "lower the diameter, the jitter or the number of holes, or ask for less");
-  return layout;
+  return layout.scaled(options.scale);
 }
 
 }  // namespace perfora::geometry

@@ -22,6 +22,7 @@ enum class WeakEnd { none, bottom, top, both };
 struct LayoutOptions {
   double width = 0.150;
   double height = 0.150;
+  double scale = 1.0;         ///< factor on every length here: what is laid is this many times as large
   LayoutFamily family = LayoutFamily::square;
   ShapeKind shape = ShapeKind::circle;
   double diameter = 0.020;       ///< length of the shape along its own axis; graded: mean of the rows
@@ -55,6 +56,9 @@ struct LayoutOptions {
   double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; hard-core placement keeps it
   std::vector<double> holes;  ///< list: rows of x, y, diameter
   std::filesystem::path file; ///< list: CSV of holes (layout_list.h) instead of `holes`
+
+  double cell_width() const { return scale * width; }  ///< as laid
+  double cell_height() const { return scale * height; }
 };
 
 void describe(io::Schema& schema, LayoutOptions& options);

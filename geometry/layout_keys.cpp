@@ -24,7 +24,7 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
                {"triangle", ShapeKind::triangle},
                {"teardrop", ShapeKind::teardrop},
                {"polygon", ShapeKind::polygon}},
-              "Shape of the holes; in a list of those that name none.")
+              "Shape of the holes; of a list those that name none of their own.")
       .real("diameter", options.diameter, Dimension::length, Range::positive(),
             "Length of the holes along their own axis, the diameter of circles (every family but list); of graded ones "
             "the mean over the rows.")
@@ -111,7 +111,10 @@ void describe(io::Schema& schema, LayoutOptions& options) {
   schema.section("cell", "The periodic rectangle the block is cut from.")
       .real("width", options.width, Dimension::length, Range::positive(), "Width of the cell, the period in x.")
       .real("height", options.height, Dimension::length, Range::positive(),
-            "Height of the cell, the period in y, the direction of loading.");
+            "Height of the cell, the period in y, the direction of loading.")
+      .real("scale", options.scale, Dimension::none, {1e-3, 1e3, false, false},
+            "Factor on every length of [cell] and [layout], the discs left as they are: the same pattern this many times "
+            "as large in the same material (docs/user/theory.md, \"Grade, strength, scale\").");
   io::Section section = schema.section("layout", "Where the perforations are.");
   section.choice("family", options.family,
                  {{"none", LayoutFamily::none},

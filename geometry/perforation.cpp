@@ -73,6 +73,16 @@ Perforation Perforation::clear_of(std::span<const NearDisc> discs, double reach)
   return {x, y, std::visit([&](const auto& s) { return Shape(s.clear_of(discs, reach)); }, shape)};
 }
 
+Perforation Perforation::scaled(double factor) const {
+  return {factor * x, factor * y, std::visit([&](const auto& s) { return Shape(s.scaled(factor)); }, shape)};
+}
+
+PerforationLayout PerforationLayout::scaled(double factor) const {
+  PerforationLayout larger{factor * width, factor * height, {}};
+  for (const Perforation& hole : perforations) larger.perforations.push_back(hole.scaled(factor));
+  return larger;
+}
+
 double PerforationLayout::solid_area_fraction() const {
   double area = 0.0;
   for (const Perforation& hole : perforations) area += hole.area();

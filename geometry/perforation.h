@@ -56,6 +56,8 @@ struct Perforation {
   /// This hole with its rim moved in or out until no disc reaches into it but one touches it; with no disc near, until
   /// its reach is `reach`.
   Perforation clear_of(std::span<const NearDisc> discs, double reach) const;
+  /// All lengths, the place included, times `factor`.
+  Perforation scaled(double factor) const;
 };
 
 /// Perforations of a periodic rectangle.
@@ -66,6 +68,8 @@ struct PerforationLayout {
 
   /// Area left by the holes over the area of the cell, assuming they do not overlap.
   double solid_area_fraction() const;
+  /// All lengths times `factor`.
+  PerforationLayout scaled(double factor) const;
   /// The holes of the rectangle cut out of the periodic plane, along its upright edges (`cut_x`), its level edges
   /// (`cut_y`) or both: the holes and their images across the cut edges, as far as they reach into the rectangle.
   std::vector<Perforation> cut_out(bool cut_x, bool cut_y) const;

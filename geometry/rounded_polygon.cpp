@@ -57,6 +57,13 @@ Bounds RoundedPolygon::bounds(Point centre) const {
   return core->box().grown_by(radius).moved_by(centre.x, centre.y);
 }
 
+RoundedPolygon RoundedPolygon::scaled(double factor) const {
+  if (factor == 1.0) return *this;
+  std::vector<Point> corners = core->corners();
+  for (Point& corner : corners) corner = {factor * corner.x, factor * corner.y};
+  return {std::make_shared<const PolygonCore>(std::move(corners)), factor * radius};
+}
+
 double RoundedPolygon::area() const {
   return core->area() + radius * core->perimeter() + std::numbers::pi * radius * radius;
 }

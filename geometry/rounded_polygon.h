@@ -36,6 +36,7 @@ struct RoundedPolygon {
   double shared_area(double distance) const;
   std::vector<Arc> outline(Point centre, double tolerance) const;
   RoundedPolygon clear_of(std::span<const NearDisc> discs, double reach) const;
+  RoundedPolygon scaled(double factor) const;
 
   PlacedCore placed(Point centre) const;
 };

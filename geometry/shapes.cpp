@@ -41,6 +41,10 @@ double Circle::area() const {
   return 0.25 * std::numbers::pi * diameter * diameter;
 }
 
+Circle Circle::scaled(double factor) const {
+  return {factor * diameter};
+}
+
 double Circle::reach() const {
   return 0.5 * diameter;
 }

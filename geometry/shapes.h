@@ -33,6 +33,7 @@ struct Circle {
   double shared_area(double distance) const;
   std::vector<Arc> outline(Point centre, double tolerance) const;
   Circle clear_of(std::span<const NearDisc> discs, double reach) const;
+  Circle scaled(double factor) const;
 };
 
 using Shape = std::variant<Circle, RoundedPolygon>;

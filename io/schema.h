@@ -98,6 +98,10 @@ class Section {
   Section& text(std::string name, std::string& field, std::string help);
   /// A relative path is resolved against the folder of the file it is written in.
   Section& path(std::string name, std::filesystem::path& field, std::string help);
+  /// A path, resolved as above, whose file gives other keys their values: `read` is called when the key is set and sets
+  /// them, so what is set later counts. The key itself stays empty: a resolved configuration names no such file.
+  Section& source(std::string name, std::function<void(const std::filesystem::path&, const Origin&)> read,
+                  std::string help);
   Section& real_list(std::string name, std::vector<double>& field, Dimension dimension, Range range, std::string help,
                      OneNumber one = OneNumber::refused);
   /// A number (kept as a list of one), a list of numbers, or one of `words` (kept in `*word`, which is empty where

@@ -98,6 +98,16 @@ Value list_value(std::vector<double>::const_iterator first, std::vector<double>:
   return {std::move(list)};
 }
 
+/// A path as written: nothing, or an absolute one, relative to the folder of the file that it stands in.
+std::filesystem::path path_of(const Value& value, const Origin& origin) {
+  const std::string& written = text_of(value, "a path in quotes is wanted", origin);
+  if (written.find('\0') != std::string::npos)
+    throw InputError(origin, "the path contains a null character", "", "write a plain path");
+  if (written.empty()) return {};
+  const std::filesystem::path folder = std::filesystem::path(origin.file).parent_path();
+  return std::filesystem::absolute(folder / written).lexically_normal();
+}
+
 }  // namespace
 
 Section& Section::add(Key key) {
@@ -164,14 +174,19 @@ Section& Section::text(std::string name, std::string& field, std::string help) {
 
 Section& Section::path(std::string name, std::filesystem::path& field, std::string help) {
   Key key = described(std::move(name), KeyType::path, std::move(help));
-  key.set = [&field](const Value& value, const Origin& origin) {
-    const std::string& written = text_of(value, "a path in quotes is wanted", origin);
-    if (written.find('\0') != std::string::npos)
-      throw InputError(origin, "the path contains a null character", "", "write a plain path");
-    const std::filesystem::path folder = std::filesystem::path(origin.file).parent_path();
-    field = written.empty() ? std::filesystem::path() : std::filesystem::absolute(folder / written).lexically_normal();
-  };
+  key.set = [&field](const Value& value, const Origin& origin) { field = path_of(value, origin); };
   key.get = [&field] { return Value{field.string()}; };
+  return add(std::move(key));
+}
+
+Section& Section::source(std::string name, std::function<void(const std::filesystem::path&, const Origin&)> read,
+                         std::string help) {
+  Key key = described(std::move(name), KeyType::path, std::move(help));
+  key.set = [read = std::move(read)](const Value& value, const Origin& origin) {
+    const std::filesystem::path path = path_of(value, origin);
+    if (!path.empty()) read(path, origin);
+  };
+  key.get = [] { return Value{std::string()}; };
   return add(std::move(key));
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/text.h"
+#include "report/measured_curves.h"
 
 namespace perfora::report {
 namespace {
@@ -27,8 +29,9 @@ struct Extent {
   double in_window = 0.0;  ///< within it, MPa
 };
 
-Extent measure(const std::vector<Series>& series, const CurveMarks& marks) {
+Extent measure(std::vector<Series> series, const CurveMarks& marks) {
   Extent extent;
+  for (const results::Curve& curve : marks.measured) series.push_back({curve.strain, curve.stress});
   const double start = marks.plateau_start.value_or(1.0);
   const double end = marks.plateau_end.value_or(1.0);
   for (const Series& curve : series)
@@ -75,6 +78,7 @@ void draw_lines(Chart& chart, const std::vector<Series>& series, const CurveMark
     for (double& value : stress) value *= mega;
     chart.polyline(strain, stress, curve.colour, curve.thickness, curve.opacity);
   }
+  draw_measured(chart, marks.measured, {percent, mega}, -std::numeric_limits<double>::infinity());
   if (marks.target_stress)
     chart.horizontal(*marks.target_stress * mega, chart.x_axis().low, chart.x_axis().high, palette::green, 2.0,
                      {9.0, 6.0});

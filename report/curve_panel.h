@@ -8,6 +8,7 @@
 
 #include "report/canvas.h"
 #include "report/chart.h"
+#include "results/curve.h"
 
 namespace perfora::report {
 
@@ -25,6 +26,7 @@ struct CurveMarks {
   std::optional<double> plateau_start, plateau_end, plateau_stress;
   std::optional<double> densification_strain;
   std::optional<double> target_stress, target_tolerance;
+  std::vector<results::Curve> measured;  ///< drawn thin; the page has their key (measured_curves.h)
 };
 
 /// Strain in % and stress in MPa in `box`, with a second, magnified panel of the plateau below when the plateau is

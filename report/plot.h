@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "results/curve.h"
 #include "results/elastic_file.h"
 #include "results/frame.h"
 #include "results/pack_file.h"
@@ -21,6 +22,8 @@ namespace perfora::report {
 struct PlotOptions {
   std::string title;                    ///< "": the name of the file
   std::optional<double> target_stress;  ///< Pa: a line to compare the plateau with
+  /// Drawn thin beside the curves of runs, under their names (plot_run, plot_comparison).
+  std::vector<results::Curve> measured = {};
 };
 
 /// What plot_run shows: a run and up to three of its frames (intact, at the first peak, last).

@@ -9,6 +9,7 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/curve_mean.h"
+#include "report/measured_curves.h"
 #include "report/plot.h"
 #include "results/summary_numbers.h"
 
@@ -23,6 +24,7 @@ constexpr double table_left = 1040.0, table_line = 30.0;
 constexpr double stress_decades = 1000.0;
 /// Empty share above the highest first peak.
 constexpr double headroom = 1.15;
+constexpr double percent = 100.0, kilo = 1e-3;
 
 struct Drawn {
   const LabelledRun* row = nullptr;
@@ -97,7 +99,9 @@ std::string window_text(const std::vector<LabelledRun>& rows, const Window& wind
   return any ? "; the plateau windows of these runs differ" : "";
 }
 
-void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& window) {
+using Measured = std::vector<results::Curve>;
+
+void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Measured& measured, const Window& window) {
   double end = 0.0, peak = 0.0, highest = 0.0, lowest = INFINITY;
   for (const Drawn& one : all) {
     if (!one.strain.empty()) end = std::max(end, one.strain.back());
@@ -108,6 +112,11 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& wi
     for (const double value : one.smooth.stress)
       if (value > 0.0) lowest = std::min(lowest, value);
   }
+  for (const results::Curve& curve : measured)
+    for (std::size_t k = 0; k < curve.strain.size(); ++k) {
+      end = std::max(end, percent * curve.strain[k]);
+      highest = std::max(highest, kilo * curve.stress[k]);
+    }
   if (!(end > 0.0) || !(highest > 0.0)) end = peak = highest = lowest = 1.0;  // no row yet: empty axes
   const Axis strain{0.0, end, "engineering strain (%)"};
   const Axis linear{0.0, headroom * peak, "stress (kPa)"};
@@ -127,10 +136,12 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Window& wi
     for (double& value : level) value = std::max(value, 0.5 * logarithmic.low);  // clipped below the axis
     lower.polyline(one.smooth.strain, level, one.colour, 2.0);
   }
+  draw_measured(upper, measured, {percent, kilo}, -INFINITY);
+  draw_measured(lower, measured, {percent, kilo}, 0.5 * logarithmic.low);
 }
 
 /// The first peaks and the fall behind them, which are a spike in the whole curve.
-void draw_first_peaks(Canvas& canvas, const std::vector<Drawn>& all, const Box& box) {
+void draw_first_peaks(Canvas& canvas, const std::vector<Drawn>& all, const Measured& measured, const Box& box) {
   constexpr double shown = 4.0;  // times the largest strain of a first peak
   double strain = 0.0, stress = 0.0;
   for (const Drawn& one : all) {
@@ -145,9 +156,10 @@ void draw_first_peaks(Canvas& canvas, const std::vector<Drawn>& all, const Box& 
   canvas.text(box.x, box.y - 12.0, "the first peaks, magnified", {.size = 16.0, .colour = palette::soft_ink});
   chart.draw_axes();
   for (const Drawn& one : all) chart.polyline(one.strain, one.stress, one.colour, 2.0);
+  draw_measured(chart, measured, {percent, kilo}, -INFINITY);
 }
 
-void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
+void draw_table(Canvas& canvas, const std::vector<Drawn>& all, const Measured& measured) {
   struct Field {
     const char *name, *unit, *key;
     double scale;
@@ -178,6 +190,12 @@ void draw_table(Canvas& canvas, const std::vector<Drawn>& all) {
       canvas.text(x += field_width, y, number ? io::number(field.scale * *number) : "-", value);
     }
   }
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    y += table_line;
+    canvas.line(table_left, y - 5.0, table_left + 24.0, y - 5.0, measured_colour(k), measured_thickness);
+    canvas.text(table_left + 34.0, y,
+                canvas.fit(measured[k].name, page_width - page_margin - table_left - 34.0, name, Keep::end), name);
+  }
 }
 
 }  // namespace
@@ -187,7 +205,8 @@ void plot_comparison(const std::vector<LabelledRun>& rows, const std::filesystem
   if (rows.empty()) throw io::InputError({out.string(), 0, ""}, "no run was given to draw", "", "name run files");
   const std::vector<Drawn> all = drawn_of(rows);
   const double panels = first_row + upper_height + panel_gap + lower_height + 74.0;
-  const double table = first_row + 60.0 + table_line * static_cast<double>(rows.size()) + page_margin;
+  const double lines = static_cast<double>(rows.size() + options.measured.size());
+  const double table = first_row + 60.0 + table_line * lines + page_margin;
   Canvas canvas(out, page_width, std::max(panels, table));
   const TextStyle title{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title), title);
@@ -195,11 +214,11 @@ void plot_comparison(const std::vector<LabelledRun>& rows, const std::filesystem
   std::string line = "Above: every row of the history. Below: mean over 2 % strain, on a logarithmic axis";
   line += window_text(rows, window);
   canvas.text(page_margin, 88.0, line, {.size = 17.0, .colour = palette::soft_ink});
-  draw_curves(canvas, all, window);
-  draw_table(canvas, all);
+  draw_curves(canvas, all, options.measured, window);
+  draw_table(canvas, all, options.measured);
   const Box beside{table_left + 70.0, first_row + upper_height + panel_gap,
                    page_width - page_margin - table_left - 70.0, lower_height};
-  if (table < beside.y) draw_first_peaks(canvas, all, beside);
+  if (table < beside.y) draw_first_peaks(canvas, all, options.measured, beside);
   canvas.write();
 }
 

@@ -9,6 +9,7 @@
 #include "report/block_picture.h"
 #include "report/canvas.h"
 #include "report/curve_panel.h"
+#include "report/measured_curves.h"
 #include "report/plot.h"
 #include "report/verdict_line.h"
 #include "results/frame.h"
@@ -60,6 +61,7 @@ CurveMarks marks_of(const results::RunResult& run, const PlotOptions& options) {
   }
   marks.densification_strain = results::summary_number(run.summary, "densification_strain");
   marks.target_stress = options.target_stress;
+  marks.measured = options.measured;
   return marks;
 }
 
@@ -73,6 +75,7 @@ void draw_heading(Canvas& canvas, const results::RunResult& run, const PlotOptio
               canvas.fit(describe_block(run) + (damage.empty() ? "" : "; " + damage), page_width - 88.0, line_style),
               line_style);
   draw_verdict(canvas, 44.0, 117.0, page_width - 88.0, run.summary);
+  draw_measured_key(canvas, 44.0, 116.0, middle, options.measured);
   if (run.status != "completed" && !run.status.empty())
     canvas.text(page_width - right_margin, 56.0,
                 canvas.fit(run.status + ": " + run.reason, 420.0, {.size = 18.0, .bold = true}),

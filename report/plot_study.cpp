@@ -12,6 +12,7 @@
 #include "report/canvas.h"
 #include "report/curve_mean.h"
 #include "report/curve_panel.h"
+#include "report/measured_curves.h"
 #include "report/search_panel.h"
 #include "report/verdict_line.h"
 
@@ -51,9 +52,10 @@ void draw_curves(Canvas& canvas, const results::StudyRecord& picture, const Box&
         canvas, x, box.y - 16.0, best_colour,
         replicate_text("best", picture.best.size(), picture.best_plateau, picture.best_plateau_deviation));
   if (!picture.start.empty())
-    draw_curve_key(
+    x = draw_curve_key(
         canvas, x, box.y - 16.0, start_colour,
         replicate_text("start", picture.start.size(), picture.start_plateau, picture.start_plateau_deviation));
+  draw_measured_key(canvas, x, box.y - 16.0, box.right(), picture.measured);
   const results::Curve best_mean = smoothed_mean(picture.best);
   const results::Curve start_mean = smoothed_mean(picture.start);
   std::vector<Series> series;
@@ -71,6 +73,7 @@ void draw_curves(Canvas& canvas, const results::StudyRecord& picture, const Box&
   marks.plateau_stress = picture.best_plateau;
   marks.target_stress = picture.target;
   marks.target_tolerance = picture.target_tolerance;
+  marks.measured = picture.measured;
   draw_curve_panel(canvas, box, series, marks, 0.42);
 }
 

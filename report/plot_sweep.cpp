@@ -8,6 +8,7 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/measure_unit.h"
+#include "report/measured_curves.h"
 #include "report/verdict_line.h"
 
 namespace perfora::report {
@@ -133,6 +134,12 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
         if (mean.stress[k] > 0.0) lowest = std::min(lowest, 1e-3 * mean.stress[k]);
       }
     }
+  for (const results::Curve& curve : picture.measured)
+    for (std::size_t k = 0; k < curve.strain.size(); ++k) {
+      end = std::max(end, 100.0 * curve.strain[k]);
+      highest = std::max(highest, 1e-3 * curve.stress[k]);
+      if (curve.stress[k] > 0.0) lowest = std::min(lowest, 1e-3 * curve.stress[k]);
+    }
   if (!(highest > 0.0)) {
     canvas.text(box.x + 0.5 * box.width, box.y + 0.5 * box.height, "no curve yet",
                 {.size = 17.0, .colour = palette::soft_ink, .align = Align::centre});
@@ -143,10 +150,11 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
   chart.draw_axes();
   for (const SweepPoint& base : picture.base) draw_curve(chart, base.curves, palette::soft_ink, 1.4);
   for (const SweepPoint& point : group.points) draw_curve(chart, point.curves, colour_of(group, point, true), 2.2);
+  draw_measured(chart, picture.measured, {100.0, 1e-3}, 0.5 * stress.low);
 }
 
 /// Names of the series above the measures; of places where the colours stand for them, above the curves.
-void draw_names(Canvas& canvas, const SweepGroup& group, bool with_base, double y) {
+void draw_names(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, double y) {
   const TextStyle style{.size = 15.0, .colour = palette::soft_ink};
   double x = curves_left;
   const auto add = [&](const std::string& text, const Colour& colour) {
@@ -161,7 +169,8 @@ void draw_names(Canvas& canvas, const SweepGroup& group, bool with_base, double 
       add(group.series[s], palette::series()[s % palette::series().size()]);
   else
     for (std::size_t p = 0; p < group.places.size(); ++p) add(group.places[p], ramp(p, group.places.size()));
-  if (with_base) add("the design itself", palette::soft_ink);
+  if (!picture.base.empty()) add("the design itself", palette::soft_ink);
+  draw_measured_key(canvas, x, y, page_width - page_margin, picture.measured);
 }
 
 /// Room below the panels of a group: more where its texts stand upright.
@@ -189,7 +198,7 @@ void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out) {
   const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
   double y = first_row;
   for (const SweepGroup& group : picture.groups) {
-    draw_names(canvas, group, !picture.base.empty(), y - 14.0);
+    draw_names(canvas, picture, group, y - 14.0);
     draw_curves(canvas, picture, group, {curves_left, y, curves_width, panel_height});
     for (std::size_t m = 0; m < picture.measures.size(); ++m)
       draw_measure(canvas, picture, group, m,

@@ -37,7 +37,8 @@ struct SweepPicture {
   std::string verdict, outcome;       ///< of an ensemble with a target; empty: none
   std::vector<std::string> measures;  ///< keys of the table of measures: "plateau_stress"
   std::vector<SweepGroup> groups;
-  std::vector<SweepPoint> base;  ///< the design itself, drawn behind every group: none or one
+  std::vector<SweepPoint> base;          ///< the design itself, drawn behind every group: none or one
+  std::vector<results::Curve> measured;  ///< drawn thin beside the curves of every group, under their names
 };
 
 /// Draws it, 1600 pixels wide, a row a group: mean curves (logarithmic stress), then every result with its replicates

@@ -43,6 +43,7 @@ SweepPicture sweep_picture(const results::SweepRecord& record) {
   picture.verdict = record.verdict;
   picture.outcome = record.outcome;
   picture.measures = record.measures;
+  picture.measured = record.measured;
   std::vector<std::string> groups;
   for (const results::SweepCase& one : record.cases) {
     if (!one.can_run) continue;

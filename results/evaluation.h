@@ -22,6 +22,7 @@ struct Evaluation {
   std::string reason;
   EffectiveSeeds seeds;
   int replicate = 0;
+  double grade = 1.0;  ///< of the material (material.grade): stresses, energies, times and rates are of this grade
   PackSummary pack;
   Summary summary;
   Performance performance;

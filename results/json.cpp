@@ -155,6 +155,7 @@ json to_json(const EffectiveSeeds& seeds) {
 json to_json(const Evaluation& evaluation, bool with_curve) {
   json record = record_head(evaluation_schema, evaluation.status, evaluation.reason, evaluation.seeds);
   record["replicate"] = evaluation.replicate;
+  record["grade"] = number(evaluation.grade);
   record.update(to_json(evaluation.pack));
   record.update(to_json(evaluation.summary));
   record["performance"] = to_json(evaluation.performance);
@@ -180,6 +181,7 @@ Evaluation evaluation_from_json(const json& record) {
   evaluation.seeds.layout = seeds.at("layout").get<std::uint64_t>();
   evaluation.seeds.search = seeds.at("search").get<std::uint64_t>();
   evaluation.replicate = record.at("replicate").get<int>();
+  evaluation.grade = record.value("grade", 1.0);
   read_measures(record, evaluation.pack, evaluation.summary);
   evaluation.summary.status = evaluation.status;
   evaluation.summary.reason = evaluation.reason;

@@ -35,6 +35,9 @@ constexpr Measure table[] = {
      "smallest gap between two holes; null without holes", 0, 4, Sense::at_least},
     {"thinnest_wall_discretised", &PackSummary::thinnest_wall_discretised, length, packing,
      "thinnest wall between the discs", "the same between the discs that clipping has left"},
+    {"thinnest_wall_ratio", &PackSummary::wall_ratio, none, packing, "thinnest wall / characteristic length",
+     "thinnest wall over E G/sigma_t^2 of the material, measured (material.characteristic_length) or estimated; null "
+     "without holes"},
     {"max_overlap_ratio", &PackSummary::max_overlap_ratio, none, packing, "largest overlap / smaller diameter",
      "of two discs of the packing"},
     {"coordination_number", &PackSummary::coordination_number, none, packing, "coordination number",

@@ -32,14 +32,19 @@ std::optional<double> optional_in(const json& object, const char* key) {
 
 json curves_json(const std::vector<Curve>& curves) {
   json array = json::array();
-  for (const Curve& curve : curves) array.push_back({{"strain", curve.strain}, {"stress", curve.stress}});
+  for (const Curve& curve : curves) {
+    json one = {{"strain", curve.strain}, {"stress", curve.stress}};
+    if (!curve.name.empty()) one["name"] = curve.name;
+    array.push_back(std::move(one));
+  }
   return array;
 }
 
 std::vector<Curve> curves_in(const json& array) {
   std::vector<Curve> curves;
   for (const json& one : array)
-    curves.push_back({one.at("strain").get<std::vector<double>>(), one.at("stress").get<std::vector<double>>()});
+    curves.push_back({one.at("strain").get<std::vector<double>>(), one.at("stress").get<std::vector<double>>(),
+                      one.value("name", "")});
   return curves;
 }
 
@@ -153,6 +158,7 @@ json to_json(const StudyRecord& record) {
           {"best_number", record.best_number},
           {"best", curves_json(record.best)},
           {"start", curves_json(record.start)},
+          {"measured", curves_json(record.measured)},
           {"best_plateau", or_null(record.best_plateau)},
           {"best_plateau_deviation", or_null(record.best_plateau_deviation)},
           {"start_plateau", or_null(record.start_plateau)},
@@ -184,6 +190,7 @@ StudyRecord study_record_from_json(const json& object) {
   record.best_number = object.at("best_number").get<int>();
   record.best = curves_in(object.at("best"));
   record.start = curves_in(object.at("start"));
+  record.measured = curves_in(object.value("measured", json::array()));
   record.best_plateau = optional_in(object, "best_plateau");
   record.best_plateau_deviation = optional_in(object, "best_plateau_deviation");
   record.start_plateau = optional_in(object, "start_plateau");

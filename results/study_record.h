@@ -31,6 +31,7 @@ struct StudyRecord {
   int best_number = 0;      ///< point that is the best design; 0: none
   std::vector<Curve> best;  ///< a replicate each
   std::vector<Curve> start;
+  std::vector<Curve> measured;  ///< of an experiment: drawn beside them under their names
   std::optional<double> best_plateau, best_plateau_deviation;  ///< mean and standard deviation over replicates, Pa
   std::optional<double> start_plateau, start_plateau_deviation;
   std::optional<double> target;                    ///< Pa

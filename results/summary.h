@@ -22,6 +22,7 @@ struct PackSummary {
          bonds_per_disc = not_reached;
   geometry::ThinnestWall thinnest_wall;
   double thinnest_wall_discretised = not_reached;
+  double wall_ratio = not_reached;  ///< thinnest wall over the characteristic length of the material
   double max_overlap_ratio = not_reached, coordination_number = not_reached, rattler_fraction = not_reached;
 };
 

@@ -75,6 +75,7 @@ constexpr Label estimate[] = {
     {"perforations", "perforations", count},
     {"porosity", "porosity (share of the perforations)", ratio},
     {"thinnest_wall", "thinnest wall", length},
+    {"thinnest_wall_ratio", "thinnest wall / characteristic length", none},
     {"horizon_radius", "horizon r_H", length},
     {"discs", "discs", count},
     {"bonds", "bonds", count},

@@ -33,11 +33,16 @@ std::string wall_pair_text(const json& object) {
                    first == second ? first + " and its periodic image" : first + " and " + second);
 }
 
-/// What to print for a key; empty: nothing (walls where there are no perforations).
+/// Whether nothing was asked where a measure is missing: there is no wall, no cap, no target.
+bool only_where_asked(std::string_view key) {
+  return key.starts_with("thinnest_wall") || key == "stroke_at_cap" || key == "stress_until" || key == "target_distance";
+}
+
+/// What to print for a key; empty: nothing.
 std::string entry_text(const Label& label, const json& value) {
   if (value.is_number()) return io::quantity(value.get<double>(), label.dimension);
   if (value.is_string()) return value.get<std::string>();
-  return label.key.starts_with("thinnest_wall") ? "" : "not reached";
+  return only_where_asked(label.key) ? "" : "not reached";
 }
 
 }  // namespace

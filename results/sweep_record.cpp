@@ -123,8 +123,10 @@ SweepRecord read_ensemble_record(const fs::path& folder) {
   }
   std::map<int, json> evaluations;  // by replicate
   for (const json& event : journal_events(folder))
-    if (event.contains("evaluation"))
+    if (event.contains("evaluation")) {
       evaluations[event.at("evaluation").value("replicate", 0)] = event.at("evaluation");
+      if (event.contains("request")) record.design = event.at("request").value("design", "");
+    }
   if (evaluations.empty())
     throw io::InputError({folder.string(), 0, ""}, "no replicate of an ensemble is finished here", "",
                          "give the folder of a `perfora evaluate --replicates`");

@@ -51,6 +51,8 @@ struct SweepRecord {
   /// where an older program left them out.
   std::vector<double> plateau_window;
   std::string verdict, outcome;  ///< of an ensemble whose design wishes something: Verdict::text, outcome_name()
+  std::string design;           ///< of an ensemble: its resolved configuration; empty where it is not known
+  std::vector<Curve> measured;  ///< of experiments, for pictures; no reader fills it
 };
 
 /// Reads a sweep's folder or result.json; without the runs. Throws io::InputError for anything else.

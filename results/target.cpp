@@ -61,6 +61,16 @@ std::vector<double> column(const std::vector<double>& points, std::size_t first)
   return values;
 }
 
+/// Takes over the curve of a CSV file.
+void load_curve(Target& target, const std::filesystem::path& path) {
+  const Curve curve = read_curve(path, StrainOrder::rising);
+  target.curve_points.clear();
+  for (std::size_t k = 0; k < curve.strain.size(); ++k) {
+    target.curve_points.push_back(curve.strain[k]);
+    target.curve_points.push_back(curve.stress[k]);
+  }
+}
+
 }  // namespace
 
 std::string name_of(const Measure& measure) {
@@ -102,7 +112,9 @@ void describe(io::Schema& schema, Target& target) {
       .numbers("window", target.window, {{Dimension::ratio}, &target.window_word, {found_word}, 0, 2},
                "Start and end of the plateau in engineering strain, or \"found\": on the found plateau of each block. "
                "Stands above [measures].")
-      .path("curve", target.curve, "CSV with columns strain and stress: wished stress over strain, instead of one.")
+      .source(
+          "curve", [&target](const std::filesystem::path& path, const io::Origin&) { load_curve(target, path); },
+          "CSV with columns strain and stress: wished stress over strain, instead of one stress.")
       .real_rows("curve_points", target.curve_points, 2, Dimension::none,
                  "Rows of strain, stress in Pa: what `curve` held when it was read.")
       .real("floor", target.floor, Dimension::ratio, Range{0.0, 1.0, true, true},
@@ -271,17 +283,6 @@ std::vector<std::string> warnings(const Target& target) {
   if (target.has_curve())
     look("target.curve", *std::max_element(target.curve_points.begin(), target.curve_points.end()));
   return told;
-}
-
-void load_curve(Target& target) {
-  if (target.curve.empty()) return;
-  const Curve curve = read_curve(target.curve, StrainOrder::rising);
-  target.curve_points.clear();
-  for (std::size_t k = 0; k < curve.strain.size(); ++k) {
-    target.curve_points.push_back(curve.strain[k]);
-    target.curve_points.push_back(curve.stress[k]);
-  }
-  target.curve.clear();
 }
 
 MeasureOptions with_window_of(const Target& target, MeasureOptions options) {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,6 @@ struct Target {
   double tolerance = 0.20;           ///< on the plateau stress or, as exp(distance) - 1, on the curve
   std::vector<double> window;        ///< start, end, strain; empty: as [measures] says
   std::string window_word;           ///< "found" instead of `window`
-  std::filesystem::path curve;       ///< CSV; its values stand in curve_points
   std::vector<double> curve_points;  ///< strain, Pa, strain, Pa, ...: wanted stress over strain
   double floor = 0.05;               ///< of the target, under the stress in the distance
   double cap = 0.0;                  ///< Pa, of the stroke at a cap; 0: none
@@ -74,9 +72,6 @@ std::vector<const Measure*> recorded_measures(const Target& target);
 void validate(const Target& target, const MeasureOptions& place, const io::Schema& schema);
 /// Sentences about wishes that look like mistakes (a stress of a few pascals, ...), without a full stop.
 std::vector<std::string> warnings(const Target& target);
-
-/// Reads target.curve into curve_points, where a curve is named. Throws io::InputError.
-void load_curve(Target& target);
 
 /// The options with the window of the target, where it has one.
 MeasureOptions with_window_of(const Target& target, MeasureOptions options);

@@ -57,7 +57,7 @@ std::string miss_text(const Wish& wish, double value) {
 std::string wish_text(const WishVerdict& one) {
   const io::Dimension dimension = one.wish.measure->dimension;
   std::string text = name_of(*one.wish.measure) + " ";
-  text += one.count > 0 ? io::quantity(one.mean, dimension) : std::string("not reached");
+  text += one.count > 0 ? io::quantity(one.mean, dimension) : std::string("not reached in any block");
   if (std::isfinite(one.interval.low) && !one.wish.measure->of_packing())
     text += fmt::format(" (95 %: {})", io::quantities({one.interval.low, one.interval.high}, dimension, " to "));
   text += ", wished " + range_text(one.wish);

@@ -9,13 +9,13 @@ double threshold_factor(const MaterialOptions& material, double mean_diameter) {
   const double ratio = mean_diameter / material.reference_mean_diameter;
   switch (material.threshold_scaling) {
     case ThresholdScaling::strength:
-      return ratio;
+      return material.strength * ratio;
     case ThresholdScaling::toughness:
-      return std::sqrt(ratio);
+      return material.strength * std::sqrt(ratio);
     case ThresholdScaling::none:
       break;
   }
-  return 1.0;
+  return material.strength;
 }
 
 BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter) {

@@ -248,10 +248,11 @@ inline ContactForce contact_opening(const ContactLaw& law, double v_n, double v_
   return lost;
 }
 
-/// Factor on the critical displacements for this disc size (docs/user/theory.md, "Resolution").
+/// Factor on the critical displacements: material.strength, and that of this disc size (docs/user/theory.md,
+/// "Resolution").
 double threshold_factor(const MaterialOptions& material, double mean_diameter);
 
-/// The law of a design's material for this disc size.
+/// The law of a design's material at grade 1 (grade.h) for this disc size.
 BondLaw make_bond_law(const MaterialOptions& material, double mean_diameter);
 ContactLaw make_contact_law(const MaterialOptions& material);
 

@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "io/error.h"
+#include "results/grade.h"
 #include "solver/crack_length.h"
+#include "solver/grade.h"
 
 namespace perfora::solver {
 namespace {
@@ -240,7 +242,10 @@ double estimated_yield_strain(MaterialTestKind kind, const SolverOptions& option
   return least;
 }
 
-MaterialTestResult run_material_test(const MaterialTestRequest& request) {
+namespace {
+
+/// A test at grade 1.
+MaterialTestResult run_at_grade_one(const MaterialTestRequest& request) {
   MaterialTestResult result;
   result.kind = request.kind;
   Ready ready = make_ready(request, result);
@@ -287,6 +292,22 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
   }
   read_results(request, simulation, residual, peaked, result);
   result.frame = take_frame(simulation, ready.original_bonds);
+  return result;
+}
+
+}  // namespace
+
+MaterialTestResult run_material_test(const MaterialTestRequest& request) {
+  MaterialTestRequest similar = request;
+  similar.options = at_grade_one(request.options);
+  MaterialTestResult result = run_at_grade_one(similar);
+  const results::GradeChange change(request.options.material.grade);
+  for (double* value : {&result.strength, &result.modulus, &result.fracture_energy}) *value *= change.stress;
+  result.rate *= change.rate;
+  result.time_step *= change.time;
+  change.apply(result.curve);
+  change.apply(result.frame.info);
+  for (results::BreakEvent& event : result.events) change.apply(event);
   return result;
 }
 

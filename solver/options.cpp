@@ -45,6 +45,11 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("viscous_rate", material.viscous_rate, Dimension::ratio, Range::between(0.0, 2.0),
             "beta of contacts: damping 2 beta sqrt(k_n m_eff).")
       .real("density", material.density, Dimension::density, Range::positive(), "Density of the discs.")
+      .real("grade", material.grade, Dimension::none, {1e-6, 1e6, false, false},
+            "Factor on both stiffnesses with the same critical displacements: E, strengths, stresses and energies are "
+            "this many times as large, the curve keeps its shape (docs/user/theory.md, \"Grade, strength, scale\").")
+      .real("strength", material.strength, Dimension::none, {1e-3, 1e3, false, false},
+            "Factor on both critical displacements: strengths at the same E.")
       .choice("threshold_scaling", material.threshold_scaling,
               {{"none", ThresholdScaling::none},
                {"strength", ThresholdScaling::strength},
@@ -52,7 +57,10 @@ void describe(io::Schema& schema, SolverOptions& options) {
               "Critical displacements for another disc size: unchanged, ~ <d> (same strength), ~ sqrt(<d>) (same "
               "toughness).")
       .real("reference_mean_diameter", material.reference_mean_diameter, Dimension::length, Range::positive(),
-            "The <d> that the critical displacements are stated for.");
+            "The <d> that the critical displacements are stated for.")
+      .real("characteristic_length", material.characteristic_length, Dimension::length, Range::non_negative(),
+            "E G/sigma_t^2 of the solid material, measured at the reference mean diameter; 0: estimated. Walls are "
+            "compared with it, nothing else follows from it.");
   NoiseOptions& noise = options.noise;
   schema.section("noise", "Factor on both thresholds of a bond, taken at its midpoint.")
       .choice("kind", noise.kind,
@@ -132,6 +140,8 @@ void describe(io::Schema& schema, SolverOptions& options) {
               "none; few: start, first peak, every 10 % and the end; all: every 1 % beside those.")
       .real_list("frame_strains", output.frame_strains, Dimension::ratio, Range::between(0.0, 0.9),
                  "Strains of frames instead of `frames`.")
+      .path("curve", output.curve,
+            "Measured curve (CSV: strain [%], stress [MPa]) that pictures show beside those of the runs.")
       .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false},
             "Strain between samples of the history; it changes nothing of the run.")
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "io/schema.h"
@@ -43,8 +44,11 @@ struct MaterialOptions {
   double friction_coefficient = 0.4;  ///< mu
   double viscous_rate = 0.9;          ///< beta of contacts
   double density = 2200.0;            ///< kg/m3 of solid discs
+  double grade = 1.0;                 ///< factor on both stiffnesses: a run is computed at grade 1 (grade.h)
+  double strength = 1.0;              ///< factor on both critical displacements
   ThresholdScaling threshold_scaling = ThresholdScaling::strength;
   double reference_mean_diameter = 0.5044e-3;  ///< the <d> the critical stretches are stated for, m
+  double characteristic_length = 0.0;  ///< E G/sigma_t^2 measured at that <d>, m; 0: estimated (estimate.h)
 };
 
 /// [noise]: spatial variation of both thresholds.
@@ -91,6 +95,7 @@ struct BoundaryOptions {
 struct OutputOptions {
   FrameChoice frames = FrameChoice::few;
   std::vector<double> frame_strains;  ///< explicit list wins over `frames`
+  std::filesystem::path curve;        ///< CSV of a measured curve that pictures show beside the run; empty: none
   double history_interval = 5.0e-4;   ///< strain between history rows
   double checkpoint_interval = 60.0;  ///< seconds of wall time between checkpoints
 };

@@ -10,14 +10,17 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "io/memory.h"
 #include "io/progress.h"
 #include "io/text.h"
+#include "results/grade.h"
 #include "results/measures.h"
 #include "results/run_file.h"
 #include "solver/checkpoint.h"
 #include "solver/frame.h"
+#include "solver/grade.h"
 #include "solver/run_folder.h"
 #include "solver/run_setup.h"
 #include "solver/samples.h"
@@ -50,11 +53,13 @@ std::vector<double> frame_strains(const OutputOptions& output, double until) {
   return strains;
 }
 
-/// One run in progress.
+/// One run in progress. It is computed at grade 1; what leaves this class is of the grade that was asked for.
 class Run {
  public:
-  explicit Run(const RunRequest& request)
+  /// `request` at grade 1; it must outlive this.
+  Run(const RunRequest& request, double grade)
       : request_(request),
+        grade_(grade),
         setup_(set_up_run(request)),
         folder_(request.run_file),
         original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())),
@@ -69,7 +74,7 @@ class Run {
     response_.bonds = setup_.network.size();
     response_.bonds_per_disc =
         response_.discs > 0 ? 2.0 * static_cast<double>(response_.bonds) / static_cast<double>(response_.discs) : 0.0;
-    summary.time_step = setup_.plan.time_step;
+    summary.time_step = grade_.time * setup_.plan.time_step;
     summary.step_margin = setup_.critical_step / setup_.plan.time_step;
     SimulationInput input;
     input.clipped = &setup_.specimen.packing;
@@ -124,7 +129,7 @@ class Run {
     while (next_frame() <= simulation_->strain()) ++next_frame_;
     const auto& strains = request_.options.output.frame_strains;
     const bool wants_start = strains.empty() || std::find(strains.begin(), strains.end(), 0.0) != strains.end();
-    if (fresh && wants_frames() && wants_start) keep_frame(take_frame(*simulation_, original_bonds_));
+    if (fresh && wants_frames() && wants_start) keep_frame(frame_now());
   }
 
   bool wants_frames() const {
@@ -153,7 +158,7 @@ class Run {
     if (looking && path.segment_stress > progress_.peak_frame_stress) {
       progress_.peak_frame_stress = path.segment_stress;
       progress_.peak_frame_strain = path.begin;
-      if (wants_peak_frame()) peak_frame_ = take_frame(*simulation_, original_bonds_);
+      if (wants_peak_frame()) peak_frame_ = frame_now();
     }
     if (!watch.ends_piece(path.segment_stress, path.begin - path.last_begin, path.begin)) return true;
     if (failed()) return false;
@@ -201,7 +206,7 @@ class Run {
   void report() const {
     const double elapsed = seconds_since(started_);
     const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
-    const double strain = path_strain(simulation_->loading()), stress = progress_.watch.last();
+    const double strain = path_strain(simulation_->loading()), stress = grade_.stress * progress_.watch.last();
     request_.progress({strain / request_.options.loading.until,
                        fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * strain,
                                    io::quantity(stress, io::Dimension::stress), io::count(rate)),
@@ -214,9 +219,15 @@ class Run {
                                                : std::numeric_limits<double>::infinity();
   }
 
+  results::Frame frame_now() const {
+    results::Frame frame = take_frame(*simulation_, original_bonds_);
+    grade_.apply(frame.info);
+    return frame;
+  }
+
   void keep_due_frame() {
     while (next_frame() <= simulation_->strain()) ++next_frame_;
-    keep_frame(take_frame(*simulation_, original_bonds_));
+    keep_frame(frame_now());
   }
 
   void keep_frame(const results::Frame& frame) {
@@ -257,14 +268,16 @@ class Run {
 
   void finish() {
     results::Summary& s = response_.summary;
-    const results::History& h = progress_.history;
+    results::History h = progress_.history;
+    grade_.apply(h);
+    const double peak_stress = grade_.stress * simulation_->peak_stress();
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     s.steps = simulation_->steps();
     s.final_strain = simulation_->strain();
     results::measure_rate(h, s);
-    s.first_peak_stress = simulation_->peak_frozen() ? simulation_->peak_stress() : nan;
+    s.first_peak_stress = simulation_->peak_frozen() ? peak_stress : nan;
     s.first_peak_strain = simulation_->peak_frozen() ? simulation_->peak_strain() : nan;
-    s.impact_stress_per_rate = setup_.plan.stress_per_rate;
+    s.impact_stress_per_rate = grade_.rate * setup_.plan.stress_per_rate;
     results::MeasuringFrame frame = request_.measuring;
     frame.reference_area = request_.layout->width * request_.layout->height;
     results::measure_curve(h, frame, s);
@@ -278,10 +291,10 @@ class Run {
     s.energy_residual = results::energy_residual(h, results::residual_from_strain);
     s.stress_asymmetry =
         simulation_->peak_stress() > 0.0 ? simulation_->largest_asymmetry() / simulation_->peak_stress() : nan;
-    const double modulus = results::loading_modulus(h, simulation_->peak_stress(), simulation_->peak_strain());
+    const double modulus = results::loading_modulus(h, peak_stress, simulation_->peak_strain());
     const double wave_speed = std::sqrt(modulus / setup_.loading.bulk_density);
-    s.transits_before_peak =
-        simulation_->peak_frozen() ? simulation_->peak_time() * wave_speed / request_.layout->height : nan;
+    const double peak_time = grade_.time * simulation_->peak_time();
+    s.transits_before_peak = simulation_->peak_frozen() ? peak_time * wave_speed / request_.layout->height : nan;
     s.kinetic_ratio_at_peak = simulation_->peak_frozen() ? progress_.kinetic_ratio : nan;
 
     results::Performance& p = response_.performance;
@@ -294,7 +307,7 @@ class Run {
     p.threads = request_.options.dynamics.kernel == KernelChoice::reference ? 1 : request_.threads;
     p.simd = simulation_->simd();
     p.peak_memory = io::peak_memory_bytes();
-    response_.history = h;
+    response_.history = std::move(h);
     if (!writes()) return;
     results::write_run(request_.run_file, record(),
                        folder_.frame_files(static_cast<int>(progress_.frame_strains.size())), request_.periodic);
@@ -316,8 +329,9 @@ class Run {
     const BoundaryOptions& boundary = request_.options.boundary;
     run.edges = {boundary.top_bottom == TopBottom::platens, boundary.sides == Sides::walls,
                  boundary.sides == Sides::free};
-    run.history = progress_.history;
+    run.history = response_.history;
     run.events = simulation_->events();
+    for (results::BreakEvent& event : run.events) grade_.apply(event);
     const BondNetwork& network = simulation_->network();
     run.bonds.reference_length = network.reference_length;
     run.bonds.strength_factor.assign(network.strength.begin(), network.strength.end());
@@ -330,6 +344,7 @@ class Run {
   }
 
   const RunRequest& request_;
+  results::GradeChange grade_;
   RunSetup setup_;
   RunFolder folder_;
   std::vector<std::int32_t> original_bonds_;
@@ -349,7 +364,9 @@ class Run {
 }  // namespace
 
 Response run_compression(const RunRequest& request) {
-  return Run(request).execute();
+  RunRequest similar = request;
+  similar.options = at_grade_one(request.options);
+  return Run(similar, request.options.material.grade).execute();
 }
 
 }  // namespace perfora::solver

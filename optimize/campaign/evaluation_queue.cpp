@@ -51,7 +51,7 @@ int workers_for(int asked, int of_file, std::int64_t together) {
 EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&, Answers&)>& seen)
     : options_(std::move(options)) {
   journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
-  answers_.set_histories([folder = options_.folder](const std::string& key) -> std::optional<results::History> {
+  answers_.set_histories([folder = options_.folder](const std::string& key) -> std::optional<results::StoredHistory> {
     const std::filesystem::path file = folder / history_file(key);
     if (!std::filesystem::exists(file)) return std::nullopt;
     return results::read_history_file(file);
@@ -89,7 +89,7 @@ void EvaluationQueue::keep_history(const std::string& key, const Evaluation& eva
   });
   if (longer_known) return;
   std::filesystem::create_directories(options_.folder / histories_folder);
-  results::write_history_file(options_.folder / history_file(key), history);
+  results::write_history_file(options_.folder / history_file(key), history, evaluation.grade);
 }
 
 std::filesystem::path EvaluationQueue::history_file(const std::string& key) {

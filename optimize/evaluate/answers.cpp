@@ -4,10 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "results/grade.h"
 #include "results/measured_anew.h"
 
 namespace perfora::optimize {
 namespace {
+
+double grade_of(const Request& request) {
+  return request.design->solver.material.grade;
+}
 
 /// Both answer the same requests.
 bool alike(const Evaluation& a, const Evaluation& b) {
@@ -36,33 +41,51 @@ bool is_answer(const Evaluation& evaluation, const Request& request) {
          summary.measured == request.design->measuring_frame().text();
 }
 
-const Evaluation* Answers::measured_anew(const Request& request, const std::string& key) const {
-  const auto [known, known_end] = derived_.equal_range(key);
-  for (auto it = known; it != known_end; ++it)
-    if (is_answer(it->second, request)) return &it->second;
-  if (!histories_) return nullptr;
+std::optional<Evaluation> Answers::at_grade_of(const Request& request, const std::string& key) const {
   const auto [first, last] = of(key);
-  if (first == last) return nullptr;
-  const std::optional<results::History> history = histories_(key);
-  if (!history || history->rows() == 0) return nullptr;
+  const results::MeasuringFrame frame = request.design->measuring_frame();
+  // A distance to a stress, or a strain at one, is not that of a curve times a factor: it is measured anew.
+  if (frame.target_stress > 0.0 || !frame.target_curve.empty() || frame.cap > 0.0) return std::nullopt;
+  for (auto it = first; it != last; ++it)
+    if (is_answer(it->second, request)) return results::at_grade(it->second, grade_of(request));
+  return std::nullopt;
+}
+
+std::optional<Evaluation> Answers::measured_anew(const Request& request, const std::string& key) const {
+  if (!histories_) return std::nullopt;
+  const auto [first, last] = of(key);
+  if (first == last) return std::nullopt;
+  std::optional<results::StoredHistory> kept = histories_(key);
+  if (!kept || kept->history.rows() == 0) return std::nullopt;
+  results::GradeChange(grade_of(request) / kept->grade).apply(kept->history);
+  const results::History& history = kept->history;
   const results::MeasuringFrame frame = request.design->measuring_frame();
   for (auto it = first; it != last; ++it) {
-    Evaluation stored = it->second;
-    if (stored.summary.final_strain != history->strain_yy.back()) continue;
-    stored.curve = *history;
+    if (it->second.summary.final_strain != history.strain_yy.back()) continue;
+    Evaluation stored = results::at_grade(it->second, grade_of(request));
+    stored.curve = history;
     std::optional<Evaluation> anew = results::measured_anew(stored, frame, request.strain());
     if (!anew || !is_answer(*anew, request)) continue;
     anew->curve = results::coarse_curve(anew->curve);
-    return &derived_.emplace(key, std::move(*anew))->second;
+    return anew;
   }
-  return nullptr;
+  return std::nullopt;
+}
+
+const Evaluation* Answers::derived(const Request& request, const std::string& key) const {
+  const auto [known, known_end] = derived_.equal_range(key);
+  for (auto it = known; it != known_end; ++it)
+    if (is_answer(it->second, request) && it->second.grade == grade_of(request)) return &it->second;
+  std::optional<Evaluation> found = at_grade_of(request, key);
+  if (!found) found = measured_anew(request, key);
+  return found ? &derived_.emplace(key, std::move(*found))->second : nullptr;
 }
 
 const Evaluation* answer_for(const Request& request, const std::string& key, const Answers& known) {
   const auto [first, last] = known.of(key);
   for (auto it = first; it != last; ++it)
-    if (is_answer(it->second, request)) return &it->second;
-  return known.measured_anew(request, key);
+    if (is_answer(it->second, request) && it->second.grade == grade_of(request)) return &it->second;
+  return known.derived(request, key);
 }
 
 }  // namespace perfora::optimize

@@ -2,7 +2,12 @@
 // (design_checks.cpp).
 #include "optimize/evaluate/design.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "io/toml.h"
+#include "optimize/evaluate/calibrated_material.h"
+#include "results/curve_file.h"
 
 namespace perfora::optimize {
 
@@ -21,6 +26,13 @@ void describe_seeds(io::Schema& schema, Seeds& seeds) {
       .integer("search", seeds.search, range, "seed of the search; 0: from `seed`");
 }
 
+/// A material is taken over first, wherever the line stands, so that what the design says itself comes after it.
+std::vector<io::Entry> material_first(std::vector<io::Entry> entries) {
+  std::stable_partition(entries.begin(), entries.end(),
+                        [](const io::Entry& entry) { return entry.key == "material.from"; });
+  return entries;
+}
+
 }  // namespace
 
 void describe(io::Schema& schema, Design& design) {
@@ -29,11 +41,20 @@ void describe(io::Schema& schema, Design& design) {
   solver::describe(schema, design.solver);
   results::describe(schema, design.measures);
   results::describe(schema, design.target);
+  schema.section("material", "")
+      .source(
+          "from",
+          [&schema](const std::filesystem::path& path, const io::Origin& origin) {
+            apply_calibrated_material(schema, path, origin);
+          },
+          "File of a calibrated material (calibrated.toml of perfora calibrate): its [material], [packing] and [noise] "
+          "are "
+          "taken over; what the design says of them itself, or what is set later, counts more.");
   describe_seeds(schema, design.seeds);
 }
 
 results::MeasuringFrame Design::measuring_frame() const {
-  return results::measuring_frame(target, measures, layout.width * layout.height);
+  return results::measuring_frame(target, measures, layout.cell_width() * layout.cell_height());
 }
 
 DesignFile::DesignFile() : design_(std::make_unique<Design>()), schema_(std::make_unique<io::Schema>()) {
@@ -46,9 +67,11 @@ DesignFile::DesignFile(const Design& design) : DesignFile() {
 
 DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides) : DesignFile() {
   path_ = path;
-  io::apply_toml(*schema_, path);
+  io::apply_entries(*schema_, material_first(io::read_toml(path)), path.string());
   for (const std::string& text : overrides) schema_->set_override(text);
-  results::load_curve(design_->target);
+  // What is wrong with a measured curve is said before a run, not when its picture is drawn.
+  if (const std::filesystem::path& curve = design_->solver.output.curve; !curve.empty())
+    static_cast<void>(results::read_curve(curve));
 }
 
 DesignFile DesignFile::of(const Design& design, const std::string& name) {
@@ -61,7 +84,7 @@ DesignFile DesignFile::of(const Design& design, const std::string& name) {
 
 DesignFile DesignFile::from_toml(const std::string& text, const std::string& name) {
   DesignFile result;
-  io::apply_entries(*result.schema_, io::parse_toml(text, name), name);
+  io::apply_entries(*result.schema_, material_first(io::parse_toml(text, name)), name);
   return result;
 }
 

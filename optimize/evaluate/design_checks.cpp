@@ -25,6 +25,8 @@ constexpr double fewest_discs_across = 10.0;
 /// Up to this ratio of <d> to the reference the thresholds are taken as stated for this packing: rounding in a design
 /// file.
 constexpr double coarse_tolerance = 1.01;
+/// A wall that is exactly as thick as wanted comes out thinner by no more than this share of it.
+constexpr double wall_rounding = 1e-9;
 
 std::string length_text(double metres) {
   return io::quantity(metres, io::Dimension::length);
@@ -48,17 +50,18 @@ void check_hole_count(const Design& design, const io::Schema& schema, double hor
   const geometry::LayoutOptions& layout = design.layout;
   const std::int64_t holes = geometry::hole_count(layout);
   if (holes <= 0 || !geometry::equal_circles(layout)) return;
-  const double area = layout.width * layout.height;
+  const double diameter = layout.scale * layout.diameter;
+  const double area = layout.cell_width() * layout.cell_height();
   const double closest = std::sqrt(2.0 * area / (std::numbers::sqrt3 * static_cast<double>(holes)));
-  if (closest - layout.diameter >= horizon_radius) return;
-  const double most = 2.0 * area / (std::numbers::sqrt3 * std::pow(layout.diameter + horizon_radius, 2));
+  if (closest - diameter >= horizon_radius) return;
+  const double most = 2.0 * area / (std::numbers::sqrt3 * std::pow(diameter + horizon_radius, 2));
   if (most < 1.0) return;  // not the number is wrong: make_layout and check_walls say what
-  throw io::InputError(
-      schema.origin(geometry::count_key(layout)),
-      fmt::format("{} holes of {} leave no wall of at least the horizon of {} in a cell of {}", holes,
-                  length_text(layout.diameter), length_text(horizon_radius), size_text(layout.width, layout.height)),
-      fmt::format("at most {:.0f} such holes can fit", std::floor(most)),
-      "take fewer or smaller holes, or a larger cell");
+  throw io::InputError(schema.origin(geometry::count_key(layout)),
+                       fmt::format("{} holes of {} leave no wall of at least the horizon of {} in a cell of {}", holes,
+                                   length_text(diameter), length_text(horizon_radius),
+                                   size_text(layout.cell_width(), layout.cell_height())),
+                       fmt::format("at most {:.0f} such holes can fit", std::floor(most)),
+                       "take fewer or smaller holes, or a larger cell");
 }
 
 /// Diameters that the rules on cells speak of: <d> that the horizon is stated in, and the largest. Of the size law, or
@@ -70,7 +73,7 @@ struct DiscSizes {
 DiscSizes disc_sizes(const Design& design, std::vector<std::string>& warnings) {
   if (design.packing.file.empty()) return {design.packing.mean_diameter, design.packing.maximum_diameter};
   const geometry::Packing packing =
-      geometry::import_packing(design.packing.file, design.layout.width, design.layout.height);
+      geometry::import_packing(design.packing.file, design.layout.cell_width(), design.layout.cell_height());
   if (packing.quality.max_overlap_ratio > geometry::overlap_limit)
     warnings.push_back(fmt::format(
         "{}: discs overlap by up to {} of the smaller diameter, more than the {} of packings made here: bonds start "
@@ -99,20 +102,20 @@ void check_size_law(const Design& design, const io::Schema& schema) {
 void check_disc_count(const Design& design, const io::Schema& schema) {
   if (!design.packing.file.empty()) return;
   // Estimated by area first: expected_discs may be slow for absurd numbers.
-  const double area = design.layout.width * design.layout.height;
+  const double area = design.layout.cell_width() * design.layout.cell_height();
   const double by_area = area / (design.packing.mean_diameter * design.packing.mean_diameter);
   if (by_area > most_discs)
-    throw io::InputError(
-        schema.origin("packing.mean_diameter"),
-        fmt::format("about {:.3g} discs of {} would be needed for a cell of {}", by_area,
-                    length_text(design.packing.mean_diameter), size_text(design.layout.width, design.layout.height)),
-        fmt::format("at most {:.3g} discs", most_discs), "take larger discs or a smaller cell");
+    throw io::InputError(schema.origin("packing.mean_diameter"),
+                         fmt::format("about {:.3g} discs of {} would be needed for a cell of {}", by_area,
+                                     length_text(design.packing.mean_diameter),
+                                     size_text(design.layout.cell_width(), design.layout.cell_height())),
+                         fmt::format("at most {:.3g} discs", most_discs), "take larger discs or a smaller cell");
 }
 
 void check_cell_against_discs(const Design& design, const io::Schema& schema, double mean_diameter,
                               double horizon_radius) {
-  const bool narrow = design.layout.width < design.layout.height;
-  const double smallest_side = narrow ? design.layout.width : design.layout.height;
+  const bool narrow = design.layout.cell_width() < design.layout.cell_height();
+  const double smallest_side = narrow ? design.layout.cell_width() : design.layout.cell_height();
   const io::Origin origin = schema.origin(narrow ? "cell.width" : "cell.height");
   if (smallest_side < fewest_discs_across * mean_diameter)
     throw io::InputError(
@@ -132,25 +135,25 @@ void check_cell_against_discs(const Design& design, const io::Schema& schema, do
 /// Where a run follows: what is left of the cell at its end.
 void check_final_height(const Design& design, const io::Schema& schema, double largest_diameter,
                         double horizon_radius) {
-  const double final_height = design.layout.height * (1.0 - design.solver.loading.until);
+  const double final_height = design.layout.cell_height() * (1.0 - design.solver.loading.until);
   const double reach = std::max(largest_diameter, horizon_radius);  // fragments keep their bonds while the cell shrinks
   if (final_height <= 2.0 * reach)
     throw io::InputError(schema.origin("loading.until"),
                          fmt::format("compressing to strain {:.4g} leaves a cell {} high, not more than twice the "
                                      "horizon or the largest disc",
                                      design.solver.loading.until, length_text(final_height)),
-                         fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.height),
+                         fmt::format("below {:.4g}", 1.0 - 2.0 * reach / design.layout.cell_height()),
                          "stop earlier or take a higher cell");
 }
 
 void check_crushed_ends(const Design& design, const io::Schema& schema) {
   const solver::BoundaryOptions& boundary = design.solver.boundary;
   const double crushed = boundary.crushed_bottom + boundary.crushed_top;
-  if (crushed < design.layout.height) return;
+  if (crushed < design.layout.cell_height()) return;
   throw io::InputError(schema.origin(boundary.crushed_bottom >= boundary.crushed_top ? "boundary.crushed_bottom"
                                                                                      : "boundary.crushed_top"),
                        fmt::format("the crushed ends, {} together, leave nothing of a cell {} high",
-                                   length_text(crushed), length_text(design.layout.height)),
+                                   length_text(crushed), length_text(design.layout.cell_height())),
                        "less than the height of the cell", "lower boundary.crushed_bottom or boundary.crushed_top");
 }
 
@@ -170,15 +173,14 @@ std::string pair_text(const geometry::ThinnestWall& wall, const geometry::Perfor
 double diameter_for(double wall, double horizons, const Design& design) {
   const double exact = wall / (horizons * design.solver.material.horizon);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
-  return std::floor(exact / digit) * digit;
+  return std::floor(exact / digit * (1.0 + wall_rounding)) * digit;
 }
 
 void check_walls(const geometry::PerforationLayout& layout, const Design& design, const io::Schema& schema,
                  double horizon_radius, std::vector<std::string>& warnings) {
   if (layout.perforations.empty()) return;
   const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
-  constexpr double rounding = 1e-9;
-  if (wall.thickness < (1.0 - rounding) * horizon_radius)
+  if (wall.thickness < (1.0 - wall_rounding) * horizon_radius)
     throw io::InputError(
         schema.origin(geometry::size_key(design.layout)),
         fmt::format("the thinnest wall, {} between {}, is thinner than the horizon of {}, so "
@@ -188,7 +190,7 @@ void check_walls(const geometry::PerforationLayout& layout, const Design& design
         fmt::format("take smaller or fewer holes, discs of a mean diameter of at most {} (packing.mean_diameter) or a "
                     "smaller material.horizon; a random layout keeps walls of layout.minimum_wall",
                     length_text(diameter_for(wall.thickness, 1.0, design))));
-  if (wall.thickness < 2.0 * horizon_radius)
+  if (wall.thickness < (1.0 - wall_rounding) * 2.0 * horizon_radius)
     warnings.push_back(
         fmt::format("the thinnest wall, {} between {}, is thinner than two horizons ({}): every disc in "
                     "it feels an edge, so "

@@ -11,10 +11,11 @@
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
 #include "optimize/evaluate/estimate_stepping.h"
-#include "solver/run_setup.h"
-
+#include "results/grade.h"
+#include "solver/grade.h"
 #include "solver/mass.h"
 #include "solver/noise.h"
+#include "solver/run_setup.h"
 
 namespace perfora::optimize {
 
@@ -55,7 +56,7 @@ struct Discs {
 
 /// An imported packing may have its openings already: what the perforations take is counted there.
 Discs periodic_discs(const Design& design, const geometry::PerforationLayout& layout) {
-  const double width = design.layout.width, height = design.layout.height;
+  const double width = design.layout.cell_width(), height = design.layout.cell_height();
   const geometry::PackingOptions& options = design.packing;
   if (!options.file.empty()) {
     const geometry::Packing packing = geometry::import_packing(options.file, width, height);
@@ -112,6 +113,13 @@ void estimate_resources(const Design& design, int threads, DesignEstimate& estim
 
 }  // namespace
 
+double characteristic_length(const solver::MaterialOptions& material, double mean_diameter) {
+  if (material.characteristic_length > 0.0)
+    return material.characteristic_length * mean_diameter / material.reference_mean_diameter;
+  constexpr double at_three = 13.0, usual_horizon = 3.0, exponent = 1.4;
+  return at_three * mean_diameter * std::pow(material.horizon / usual_horizon, exponent);
+}
+
 double expected_bonds_per_disc(const geometry::PerforationLayout& layout, double density, double radius) {
   const double solid = layout.solid_area_fraction();
   const double cell = layout.width * layout.height;
@@ -136,7 +144,8 @@ double bonds_cut_by_edges(const geometry::PerforationLayout& layout, const solve
 }
 
 DesignEstimate estimate_design(const DesignFile& file, int threads) {
-  const Design& design = file.design();
+  Design design = file.design();
+  design.solver = solver::at_grade_one(design.solver);
   DesignEstimate estimate;
   const auto layout = geometry::make_layout(design.layout, design.seeds.effective(0).layout, &file.schema());
   const Discs discs = periodic_discs(design, layout);
@@ -146,6 +155,7 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   estimate.thinnest_wall = geometry::thinnest_wall(layout);
   estimate.porosity = 1.0 - solid;
   estimate.horizon_radius = design.solver.material.horizon * discs.mean_diameter;
+  estimate.characteristic_length = characteristic_length(design.solver.material, discs.mean_diameter);
   estimate.discs = discs.left;
   const bool made = design.packing.file.empty();
   const double density =
@@ -156,6 +166,9 @@ DesignEstimate estimate_design(const DesignFile& file, int threads) {
   estimate.bonds = std::llround(0.5 * estimate.bonds_per_disc * static_cast<double>(estimate.discs));
   estimate_steps(design, layout, discs, estimate);
   estimate_resources(design, threads, estimate);
+  const results::GradeChange grade(file.design().solver.material.grade);
+  estimate.time_step *= grade.time;
+  estimate.rate *= grade.rate;
   return estimate;
 }
 

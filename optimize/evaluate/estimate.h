@@ -19,13 +19,20 @@ struct DesignEstimate {
   double time_step = 0.0;  ///< s
   double rate = 0.0;       ///< 1/s
   double memory_bytes = 0.0, disk_bytes = 0.0, seconds = 0.0;
-  double porosity = 0.0;        ///< fraction of the perforations
-  double horizon_radius = 0.0;  ///< r_H, m
+  double porosity = 0.0;               ///< fraction of the perforations
+  double horizon_radius = 0.0;         ///< r_H, m
+  double characteristic_length = 0.0;  ///< E G/sigma_t^2 of the material, m
   geometry::ThinnestWall thinnest_wall;
 };
 
 /// `design` must be valid (DesignFile::validate). `threads` >= 1. Cost: milliseconds (an imported packing is read).
 DesignEstimate estimate_design(const DesignFile& file, int threads);
+
+/// E G/sigma_t^2 of the solid material with discs of this mean diameter, m: as measured
+/// (material.characteristic_length, which grows with the discs), or estimated as 13 <d> (horizon/3)^1.4, which tension
+/// tests of solid samples without noise gave within a third (docs/user/theory.md, "Grade, strength, scale"). Neither
+/// grade nor strength changes it.
+double characteristic_length(const solver::MaterialOptions& material, double mean_diameter);
 
 /// Mean bonds per disc of a packing with `density` discs per area (1/m2), bond radius `radius`, outside the
 /// perforations of `layout` (walls no thinner than `radius`). Pairs of a random-looking packing at distance up to r, in

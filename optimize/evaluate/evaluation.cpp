@@ -11,6 +11,7 @@
 #include "geometry/wall.h"
 #include "io/hdf5.h"
 #include "io/text.h"
+#include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/packing_cache.h"
 #include "results/file_parts.h"
 #include "results/formats.h"
@@ -31,7 +32,7 @@ geometry::Packing packing_from_file(const std::filesystem::path& path, const geo
 /// The packing a design asks for: imported, from `packing_file`, from memory, or made now.
 std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, const EvaluateOptions& options,
                                                           std::uint64_t seed) {
-  const double width = design.layout.width, height = design.layout.height;
+  const double width = design.layout.cell_width(), height = design.layout.cell_height();
   if (!design.packing.file.empty()) {
     auto imported =
         std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing.file, width, height));
@@ -73,13 +74,17 @@ PackedDesign pack_without_bonds(const DesignFile& file, const EvaluateOptions& o
   packed.periodic = *periodic_packing(design, options, seeds.packing);
   packed.clipped = geometry::clip_packing(packed.periodic, packed.layout, design.packing.clip);
   packed.summary = summarise(packed.layout, packed.periodic, packed.clipped);
+  if (!packed.layout.perforations.empty())
+    packed.summary.wall_ratio = packed.summary.thinnest_wall.thickness /
+                                characteristic_length(design.solver.material, mean_diameter_of(file, packed.periodic));
   return packed;
 }
 
 /// The results of a run as an evaluation; curve and all.
 Evaluation evaluation_of(const solver::Response& response, const results::PackSummary& pack,
-                         const Seeds::Effective& seeds, int replicate) {
+                         const Seeds::Effective& seeds, int replicate, double grade) {
   Evaluation evaluation;
+  evaluation.grade = grade;
   evaluation.replicate = replicate;
   evaluation.seeds = seeds;
   evaluation.status = response.summary.status;
@@ -232,12 +237,13 @@ Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& opti
     failed.performance.threads = options.threads;
     return failed;
   }
+  const double grade = design.design().solver.material.grade;
   solver::RunRequest request = run_request(design, packed, options, seeds);
   request.summary = [&](const solver::Response& response) {
-    return evaluation_record(design, evaluation_of(response, packed.summary, seeds, replicate));
+    return evaluation_record(design, evaluation_of(response, packed.summary, seeds, replicate, grade));
   };
   solver::Response response = solver::run_compression(request);
-  Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate);
+  Evaluation evaluation = evaluation_of(response, packed.summary, seeds, replicate, grade);
   evaluation.curve = std::move(response.history);
   return evaluation;
 }

@@ -158,6 +158,7 @@ DesignFile material_sample(const DesignFile& design) {
                                      length(options.packing.mean_diameter)),
                          "at least " + length(least), "raise test.size or take smaller discs");
   options.layout.width = options.layout.height = size;
+  options.layout.scale = 1.0;
   return sample;
 }
 
@@ -241,6 +242,7 @@ Evaluation evaluate_material_test(const DesignFile& design, MaterialTestKind kin
   const MaterialTestResult result = run_one(sample, packed, kind, replicate, cancellation, {});
   Evaluation evaluation = failed_evaluation(result.reason, replicate, seeds);  // nothing else is reached
   evaluation.status = evaluation.summary.status = result.status;
+  evaluation.grade = design.design().solver.material.grade;
   evaluation.pack = packed.summary;
   evaluation.summary.first_peak_stress = result.strength;
   evaluation.summary.first_peak_strain = result.peak_strain;

@@ -11,6 +11,7 @@
 
 #include "io/text.h"
 #include "optimize/evaluate/material_tests.h"
+#include "solver/grade.h"
 
 namespace perfora::optimize {
 
@@ -19,15 +20,17 @@ namespace {
 using nlohmann::json;
 
 /// Keys, and sections (with a dot behind), of a design that do not change the path of a run.
-constexpr std::array<std::string_view, 8> beside_the_path = {
+constexpr std::array<std::string_view, 10> beside_the_path = {
     "measures.",       // read from the finished curve
     "target.",         // wished of it
     "material_test.",  // tests of the solid material
     "loading.until",   // how far: the path up to there is the same
     "output.frames",   // frames and checkpoints have no side effect;
     "output.frame_strains",
-    "output.checkpoint_interval",  // history_interval says what the curve holds, and measures are read from it
-    "seeds.search",                // of the search alone
+    "output.checkpoint_interval",      // history_interval says what the curve holds, and measures are read from it
+    "output.curve",                    // of pictures
+    "material.characteristic_length",  // of what is printed
+    "seeds.search",                    // of the search alone
 };
 
 /// SHA-1 of the JSON text, as a name-based identifier (RFC 4122, version 5).
@@ -47,7 +50,9 @@ bool changes_path(const std::string& key) {
 
 std::string Request::key() const {
   if (!material_test.empty()) return full_key();
-  const DesignFile file(*design);
+  Design similar = *design;
+  similar.solver = solver::at_grade_one(similar.solver);  // it goes through the same states
+  const DesignFile file(similar);
   json path = json::object();
   for (const io::Key& one : file.schema().keys())
     if (!one.at_default() && changes_path(one.full_name()))

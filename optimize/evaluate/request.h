@@ -32,7 +32,7 @@ struct Request {
   double strain() const { return until > 0.0 ? until : design->solver.loading.until; }
   /// Hash over what changes the path of the run: the design's keys that are not at their defaults (but those of
   /// changes_path()), replicate and results_version. A key that the program learns later leaves it as it is. How far
-  /// the run goes and what is read from its curve are no part of it (answers.h).
+  /// the run goes, what is read from its curve and the grade of the material are no part of it (answers.h).
   std::string key() const;
   /// Hash over everything that is asked, strain, window and output included: names the run's file, since a run file
   /// holds all of it.

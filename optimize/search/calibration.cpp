@@ -3,6 +3,7 @@
 #include "optimize/search/calibration.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/error.h"
 #include "optimize/campaign/table_file.h"
@@ -67,8 +68,15 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
     throw io::InputError(schema.origin("calibrate.compressive_strength"),
                          "the compressive strength is not above the tensile one", "more than tensile_strength",
                          "check both; bonds that break more easily in compression are not in this model");
+  solver::MaterialOptions& material = start->design().solver.material;
+  if (material.grade != 1.0 || material.strength != 1.0)
+    calibration.warnings.push_back(
+        "material.grade and material.strength of the design are factors on the parameters that "
+        "are searched; they are taken as 1 here");
+  material.grade = material.strength = 1.0;
+  material.characteristic_length = 0.0;  // of other parameters
   calibration.start = start;
-  calibration.warnings = material_sample(*calibration.start).validate();
+  for (std::string& warning : material_sample(*start).validate()) calibration.warnings.push_back(std::move(warning));
   return calibration;
 }
 

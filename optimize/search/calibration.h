@@ -74,7 +74,8 @@ struct CalibrationResult {
   std::vector<CalibrationTarget> targets;
   std::vector<std::string> not_met;  ///< a sentence each: what and why
   std::vector<StrengthPoint> points;
-  MaterialTests confirmation;  ///< all tests with the parameters found
+  MaterialTests confirmation;           ///< all tests with the parameters found
+  std::filesystem::path material_file;  ///< that designs name as material.from; empty: not written
   double seconds = 0.0;
 };
 

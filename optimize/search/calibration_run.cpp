@@ -12,6 +12,7 @@
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
+#include "optimize/evaluate/calibrated_material.h"
 #include "optimize/evaluate/elastic_fit.h"
 #include "optimize/evaluate/material_tests_file.h"
 #include "optimize/search/calibration_search.h"
@@ -25,6 +26,9 @@ using solver::MaterialTestKind;
 
 /// What a point is tested for.
 constexpr const char* tests_of_a_point[] = {"tension", "compression"};
+
+/// The material found, for other designs.
+constexpr const char* material_name = "calibrated.toml";
 
 /// Names one test of one sample of a point.
 std::string test_key(const std::string& point, const std::string& test, int replicate) {
@@ -70,13 +74,14 @@ class CalibrationRun final : public Campaign {
     made.points = search_.points;
     made.confirmation = confirmation_;
     made.seconds = seconds();
+    if (!confirmation_.runs.empty()) made.material_file = options_.folder / material_name;
     return made;
   }
 
   std::string kind() const override { return "calibration"; }
   std::vector<std::string> own_files() const override {
-    return {"journal.jsonl", "material.toml",   "result.json",     "reachable.csv",
-            "reachable.png", "confirmation.h5", "confirmation.png"};
+    return {"journal.jsonl", "material.toml", material_name,     "result.json",
+            "reachable.csv", "reachable.png", "confirmation.h5", "confirmation.png"};
   }
   json identity() const override {
     return {{"design", calibration_.start->schema().to_toml()}, {"replicates", keys_.replicates}};
@@ -254,7 +259,7 @@ class CalibrationRun final : public Campaign {
 
   /// All tests with the parameters found, held against what was wanted. False: stopped.
   bool confirm() {
-    const DesignFile design = design_with(calibration_, search_.found);
+    DesignFile design = design_with(calibration_, search_.found);
     MaterialTestsOptions tests;
     tests.threads = options_.threads;
     tests.replicates = keys_.replicates;
@@ -271,7 +276,31 @@ class CalibrationRun final : public Campaign {
     compare("poisson_ratio", "poisson_ratio" + suffix, keys_.poisson_ratio);
     compare("tensile_strength", "tensile_strength", keys_.tensile_strength);
     compare("compressive_strength", "compressive_strength", keys_.compressive_strength);
+    write_calibrated(design);
     return true;
+  }
+
+  /// calibrated.toml, with what was wanted and reached.
+  void write_calibrated(DesignFile& design) const {
+    std::string remarks = "Calibrated material (perfora calibrate): reached, wanted\n";
+    for (const CalibrationTarget& t : targets_)
+      remarks += fmt::format("  {}: {}, {}\n", t.name, target_text(t.name, t.reached), target_text(t.name, t.wanted));
+    for (const results::Statistic& s : confirmation_.statistics) {
+      if (s.name == "fracture_energy")
+        remarks += "  fracture energy: " + io::quantity(s.mean, io::Dimension::surface_energy) + "\n";
+      if (s.name == "characteristic_length") design.design().solver.material.characteristic_length = length_of(s.mean);
+    }
+    io::write_file(options_.folder / material_name, calibrated_material(design, remarks));
+  }
+
+  /// At the reference diameter: it grows with the discs.
+  double length_of(double measured) const {
+    return io::rounded(measured * calibration_.start->design().solver.material.reference_mean_diameter /
+                       confirmation_.mean_diameter);
+  }
+
+  static std::string target_text(const std::string& name, double value) {
+    return io::quantity(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
   }
 
   void compare(const std::string& name, const std::string& statistic, double wanted) {
@@ -282,9 +311,7 @@ class CalibrationRun final : public Campaign {
     target.met = std::fabs(target.reached / wanted - 1.0) <= keys_.tolerance;
     const bool told = std::any_of(search_.not_met.begin(), search_.not_met.end(),
                                   [&](const std::string& one) { return one.starts_with(name); });
-    const auto text = [&](double value) {
-      return io::quantity(value, name == "poisson_ratio" ? io::Dimension::none : io::Dimension::stress);
-    };
+    const auto text = [&](double value) { return target_text(name, value); };
     if (!target.met && !told)
       search_.not_met.push_back(
           fmt::format("{}: {} was reached where {} was wanted ({:+.1f} %); "

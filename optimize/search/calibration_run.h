@@ -28,7 +28,8 @@ struct CalibrationOptions {
 /// from the ratio of strengths by a bracketed secant in logarithms at thresholds that give nearly the wanted tensile
 /// strength, delta_n0 by proportion; then all tests once more with what was found, in this process. Every point of the
 /// search is a line of DIR/journal.jsonl and never tested twice. Writes journal.jsonl, material.toml (the design with
-/// the parameters found), result.json, reachable.csv, confirmation.h5. Throws io::InputError.
+/// the parameters found), calibrated.toml (their material alone, calibrated_material.h), result.json, reachable.csv,
+/// confirmation.h5. Throws io::InputError.
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options);
 
 /// How many tests run at once: `asked`, but not more than can be under way together.

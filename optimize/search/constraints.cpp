@@ -23,7 +23,7 @@ double bounded(double value) {
 
 double wanted_wall(const ConstraintKeys& keys, const Design& design) {
   const double horizon = design.solver.material.horizon * design.packing.mean_diameter;
-  return std::max({keys.thinnest_wall, design.layout.minimum_wall, horizon});
+  return std::max({keys.thinnest_wall, design.layout.scale * design.layout.minimum_wall, horizon});
 }
 
 }  // namespace

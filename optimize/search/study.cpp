@@ -109,7 +109,6 @@ struct Reader {
 
   /// What the study does not say of its target, the design does; the design of every candidate then holds all of it.
   void set_target(DesignFile& start) {
-    results::load_curve(study.target);
     for (const io::Key& key : schema.keys())
       if (key.section.starts_with("target") && schema.origin(key.full_name()).file == "default")
         schema.set(key.full_name(), start.schema().at(key.full_name()).get(), {});

@@ -6,6 +6,7 @@
 #include "geometry/layout.h"
 #include "io/text.h"
 #include "optimize/search/study_result.h"
+#include "results/curve_file.h"
 
 namespace perfora::optimize {
 namespace {
@@ -89,6 +90,8 @@ results::StudyRecord study_record(StudyRun& run) {
     record.window_start = measures.plateau_start;
     record.window_end = measures.plateau_end;
   }
+  const std::filesystem::path& measured = study.start->design().solver.output.curve;
+  if (!measured.empty()) record.measured.push_back(results::read_curve(measured));
   add_points(record, run);
   if (const auto verdict = verdict_of(run)) {
     record.verdict = verdict->text;

@@ -300,7 +300,8 @@ ElasticResponse elastic_response(const BondNetwork& network, std::int32_t discs,
 
 ElasticResponse elastic_response(const BondNetwork& network, std::int32_t discs, double width, double height,
                                  const MaterialOptions& material, const ElasticOptions& options) {
-  return elastic_response(network, discs, width, height, material.normal_stiffness, material.tangential_stiffness,
+  return elastic_response(network, discs, width, height, material.grade * material.normal_stiffness,
+                          material.grade * material.tangential_stiffness,
                           options);
 }
 

@@ -191,6 +191,37 @@ TEST(Layout, PlacingForAStudyDoesNotRefuseThinWalls) {
   EXPECT_NEAR(thinnest_wall(place_perforations(options, 1)).thickness, -0.001, 1e-15);
 }
 
+// Doubling is exact in binary: every length of the layout has the same digits, whatever the family draws at random.
+TEST(Layout, ScaleMultipliesEveryLength) {
+  const TemporaryCsv csv("x,y,diameter\n0.02,0.03,0.008\n0.1,0.1,0.012\n");
+  for (const LayoutFamily family :
+       {LayoutFamily::none, LayoutFamily::square, LayoutFamily::staggered, LayoutFamily::rotated, LayoutFamily::graded,
+        LayoutFamily::random, LayoutFamily::list}) {
+    LayoutOptions options;
+    options.family = family;
+    options.diameter = 0.012;
+    options.jitter = 0.001;
+    options.minimum_wall = 0.002;
+    if (family == LayoutFamily::list) options.file = csv.path();
+    const PerforationLayout plain = make_layout(options, 7);
+    options.scale = 2.0;
+    const PerforationLayout larger = make_layout(options, 7);
+    EXPECT_EQ(larger.width, 2.0 * plain.width);
+    EXPECT_EQ(larger.height, 2.0 * plain.height);
+    EXPECT_EQ(options.cell_width(), larger.width);
+    ASSERT_EQ(larger.perforations.size(), plain.perforations.size());
+    for (std::size_t k = 0; k < plain.perforations.size(); ++k) {
+      EXPECT_EQ(larger.perforations[k].x, 2.0 * plain.perforations[k].x);
+      EXPECT_EQ(larger.perforations[k].y, 2.0 * plain.perforations[k].y);
+      EXPECT_EQ(larger.perforations[k].largest_extent(), 2.0 * plain.perforations[k].largest_extent());
+    }
+    if (family != LayoutFamily::none) {
+      EXPECT_DOUBLE_EQ(thinnest_wall(larger).thickness, 2.0 * thinnest_wall(plain).thickness);
+    }
+    EXPECT_EQ(place_perforations(options, 7).perforations, larger.perforations);
+  }
+}
+
 TEST(Layout, NoneIsASolidBlock) {
   LayoutOptions options;
   options.family = LayoutFamily::none;

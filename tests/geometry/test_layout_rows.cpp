@@ -150,8 +150,8 @@ TEST(Rows, HaveTheirOwnHeightShiftCountAndAngle) {
       EXPECT_NEAR(hole.area(), std::numbers::pi / 4.0 * 0.004 * 0.004 / aspects[row], 1e-9);
     }
   const Bounds upright = layout.perforations.back().bounds();
-  EXPECT_NEAR(upright.top - upright.bottom, 0.004, 2.0 * curve_tolerance);
-  EXPECT_NEAR(upright.right - upright.left, 0.001, 2.0 * curve_tolerance);
+  EXPECT_NEAR(upright.height(), 0.004, 2.0 * curve_tolerance);
+  EXPECT_NEAR(upright.width(), 0.001, 2.0 * curve_tolerance);
 }
 
 TEST(Rows, ShiftAtRandomStaysWithinItsSpreadAndFollowsTheSeed) {

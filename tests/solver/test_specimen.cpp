@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "solver/crushed_bands.h"
 #include "tests/solver/bounded_block.h"
 
 namespace perfora::solver {

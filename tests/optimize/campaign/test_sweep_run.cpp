@@ -57,6 +57,21 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
     EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
 }
 
+// Stresses are those of grade 1 times the grade (theory.md): one simulation a replicate answers all of them.
+TEST_F(SweepTest, GradesCostNoSimulation) {
+  const std::string text = sweep_text("[each]\nmaterial.grade = [2, 6, 0.5]\n", "replicates = 2\nbase = true");
+  for (const bool resume : {false, true}) {
+    SweepRun run(sweep(text), options("out", resume));
+    run.run();
+    EXPECT_EQ(asked, 2) << "the design itself, two replicates";
+    const auto& cases = run.sweep().cases;
+    const double one = run.known(cases[0], 1)->summary.plateau_stress;
+    EXPECT_EQ(run.known(cases[1], 1)->summary.plateau_stress, 2.0 * one);
+    EXPECT_EQ(run.known(cases[2], 1)->summary.plateau_stress, 6.0 * one);
+    EXPECT_EQ(run.known(cases[3], 1)->summary.plateau_stress, 0.5 * one);
+  }
+}
+
 // Strain and window are no part of a run's path: such cases have one key, and each its own answer.
 TEST_F(SweepTest, CasesThatDifferInStrainOrWindowAreAnsweredEach) {
   const std::string text =

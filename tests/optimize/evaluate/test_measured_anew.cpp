@@ -77,8 +77,8 @@ TEST_F(MeasuredAnew, AHistoryComesBackFromItsFileAndAnswersFromThere) {
   const Request first = request(long_end, 0.01, 0.03), other = request(short_end, 0.005, 0.02);
   ASSERT_EQ(first.key(), other.key());
   const Evaluation made = evaluate_request(first, 1);
-  results::write_history_file(folder_ / "h.h5", made.curve);
-  const results::History read = results::read_history_file(folder_ / "h.h5");
+  results::write_history_file(folder_ / "h.h5", made.curve, made.grade);
+  const results::History read = results::read_history_file(folder_ / "h.h5").history;
   for (const results::History::Column& column : results::History::columns())
     EXPECT_EQ(read.*column.values, made.curve.*column.values) << column.name;
   Answers answers;
