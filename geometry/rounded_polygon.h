@@ -41,8 +41,8 @@ struct RoundedPolygon {
   PlacedCore placed(Point centre) const;
 };
 
-/// The shape of a core that was written to a file: nothing where it is none (fewer than two corners, edges that cross or
-/// run clockwise, numbers that are none, a radius round a core that is not convex).
+/// The shape of a core that was written to a file: nothing where it is none (fewer than two corners, edges that cross
+/// or run clockwise, numbers that are none, a radius round a core that is not convex).
 std::optional<RoundedPolygon> polygon_of(std::vector<Point> corners, double radius);
 
 }  // namespace perfora::geometry

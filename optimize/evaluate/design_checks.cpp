@@ -157,9 +157,16 @@ void check_crushed_ends(const Design& design, const io::Schema& schema) {
                        "less than the height of the cell", "lower boundary.crushed_bottom or boundary.crushed_top");
 }
 
-std::string pair_text(const geometry::ThinnestWall& wall) {
-  if (wall.first == wall.second) return fmt::format("hole {} and its periodic image", wall.first + 1);
-  return fmt::format("holes {} and {}", wall.first + 1, wall.second + 1);
+/// The two holes and where the middle of their wall is.
+std::string pair_text(const geometry::ThinnestWall& wall, const geometry::PerforationLayout& layout) {
+  const auto middle = [](double from, double to, double period) {
+    const double at = 0.5 * (from + to);
+    return warned_length(at - period * std::floor(at / period));
+  };
+  const std::string at = fmt::format("at ({}, {})", middle(wall.from.x, wall.to.x, layout.width),
+                                     middle(wall.from.y, wall.to.y, layout.height));
+  if (wall.first == wall.second) return fmt::format("hole {} and its periodic image {}", wall.first + 1, at);
+  return fmt::format("holes {} and {} {}", wall.first + 1, wall.second + 1, at);
 }
 
 /// The largest mean disc diameter at which a wall is `horizons` bond radii thick, rounded down to three digits.
@@ -178,7 +185,7 @@ void check_walls(const geometry::PerforationLayout& layout, const Design& design
         schema.origin(geometry::size_key(design.layout)),
         fmt::format("the thinnest wall, {} between {}, is thinner than the horizon of {}, so "
                     "bonds would span it",
-                    length_text(wall.thickness), pair_text(wall), length_text(horizon_radius)),
+                    length_text(wall.thickness), pair_text(wall, layout), length_text(horizon_radius)),
         "at least " + length_text(horizon_radius),
         fmt::format("take smaller or fewer holes, discs of a mean diameter of at most {} (packing.mean_diameter) or a "
                     "smaller material.horizon; a random layout keeps walls of layout.minimum_wall",
@@ -189,7 +196,7 @@ void check_walls(const geometry::PerforationLayout& layout, const Design& design
                     "it feels an edge, so "
                     "it is softer and weaker than the material; a packing.mean_diameter of at most {} or thicker walls "
                     "give truer results",
-                    warned_length(wall.thickness), pair_text(wall), warned_length(2.0 * horizon_radius),
+                    warned_length(wall.thickness), pair_text(wall, layout), warned_length(2.0 * horizon_radius),
                     warned_length(diameter_for(wall.thickness, 2.0, design))));
 }
 

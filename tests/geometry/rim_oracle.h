@@ -111,7 +111,7 @@ double least_of(const Function& f, double low, double high, int samples) {
 }
 
 /// Distance of the rims of two holes.
-inline double rim_distance(const Rim& a, const Rim& b, Point shift, int samples = 300) {
+inline double rim_distance(const Rim& a, const Rim& b, Point shift, int samples) {
   return least_of(
       [&](double s) {
         const Point p = a.at(s);

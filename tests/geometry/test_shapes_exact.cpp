@@ -46,7 +46,7 @@ PerforationLayout random_layout(std::uint64_t seed) {
 }
 
 bool overlap(const Perforation& a, const Rim& rim_of_a, const Perforation& b, Point shift) {
-  constexpr int samples = 200;
+  constexpr int samples = 100;
   const Perforation moved = b.moved_by(shift.x, shift.y);
   if (a.contains(moved.x, moved.y) && moved.contains(moved.x, moved.y)) return true;
   for (int k = 0; k < samples; ++k) {
@@ -77,7 +77,7 @@ Found wall_along_the_rims(const PerforationLayout& layout) {
           if (apart - first.reach() - second.reach() > std::min(found.wall, 1.0)) continue;
           found.overlap = found.overlap || overlap(first, rims[i], second, shift);
           if (found.overlap) return found;
-          found.wall = std::min(found.wall, rim_distance(rims[i], rims[j], shift));
+          found.wall = std::min(found.wall, rim_distance(rims[i], rims[j], shift, 160));
         }
   return found;
 }
