@@ -98,7 +98,7 @@ constexpr Measure table[] = {
     {"efficiency_strain", &Summary::efficiency_strain, ratio, curve, "strain of largest efficiency",
      "where absorbed energy over the largest stress so far is largest", 0, 0, Sense::at_least, Term::shortfall},
     {"densification_onset", &Summary::densification_onset, ratio, curve, "onset of densification",
-     "the same for the smoothed stress behind the first peak (Li et al. 2006)", 20, 0, Sense::at_least,
+     "the same for the smoothed stress from the foot of the first peak on (Li et al. 2006)", 20, 0, Sense::at_least,
      Term::shortfall},
     {"only_rising_strain", &Summary::only_rising_strain, ratio, curve, "stress only rises from strain",
      "from here on the smoothed stress never falls by more than a tenth"},

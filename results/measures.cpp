@@ -35,15 +35,14 @@ double above_for_good(const std::vector<double>& strain, const std::vector<doubl
   return 0.0;
 }
 
-/// Strain of the largest energy efficiency: energy absorbed from `from` on over (stress reached from `reached_from` on
-/// x 1), Li et al.'s definition with the running maximum of the stress.
+/// Strain of the largest energy efficiency from `from` on: energy absorbed over (stress reached x 1), Li et al.'s
+/// definition with the running maximum of the stress.
 double largest_efficiency_strain(const std::vector<double>& strain, const std::vector<double>& stress,
-                                 double from = 0.0, double reached_from = 0.0) {
+                                 double from = 0.0) {
   double absorbed = 0.0, best = -1.0, at = nan, largest = 0.0;
   for (std::size_t k = 0; k < strain.size(); ++k) {
     if (strain[k] < from) continue;
     if (k > 0 && strain[k - 1] >= from) absorbed += 0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]);
-    if (strain[k] < reached_from) continue;
     largest = std::max(largest, stress[k]);
     if (largest > 0.0 && absorbed / largest > best) {
       best = absorbed / largest;
@@ -218,10 +217,10 @@ void measure_whole_curve(const History& history, const MeasuringFrame& frame, co
   }
   summary.efficiency_strain = largest_efficiency_strain(strain, stress);
   const double behind = behind_first_peak(summary, frame);
-  // The flank of the peak is part of the energy, but not the stress that the dense branch is held against.
+  // The flank of the peak is neither energy nor stress of what is crushed behind it.
   const bool has_peak = !std::isnan(summary.first_peak_strain);
   const double foot = has_peak ? foot_of_first_peak(strain, smooth, behind, frame.options.found_length) : 0.0;
-  summary.densification_onset = largest_efficiency_strain(strain, smooth, behind, foot);
+  summary.densification_onset = largest_efficiency_strain(strain, smooth, foot);
   if (const auto found = found_plateau(strain, smooth, behind, summary.densification_onset, frame.options)) {
     summary.found_plateau_start = found->start;
     summary.found_plateau_end = found->end;

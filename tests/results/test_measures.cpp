@@ -325,7 +325,7 @@ TEST(Measures, DistanceToAWishedCurve) {
 }
 
 // The plateau of `crushed`: samples whose running mean over 1 % stays within 25 % of the mean. At its start the ramp
-// from 0.5 to 1 is within that from some 0.75 on. Behind the peak some 0.35 are absorbed up to 40 % strain; from there
+// from 0.5 to 1 is within that from some 0.75 on. From the foot some 0.35 are absorbed up to 40 % strain; from there
 // on the largest stress grows by 20 a unit strain, the energy by 1 to 5, so efficiency falls: densification sets in
 // where the running mean begins to rise, half the smoothing before 40 % at the earliest, and its smoothing lifts it
 // slowly.
