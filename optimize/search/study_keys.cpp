@@ -14,7 +14,7 @@ namespace {
 std::string reason_against(const io::Key& key) {
   if (key.section == "output") return "it changes what is written, not the result";
   if (key.section == "material_test") return "a run does not look at it";
-  if (key.section == "measures" || key.full_name() == "loading.until")
+  if (key.section == "measures" || key.section.starts_with("target") || key.full_name() == "loading.until")
     return "the study says it for all candidates: target.window, study.until";
   return {};
 }

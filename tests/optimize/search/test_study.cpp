@@ -344,6 +344,7 @@ TEST_F(StudyFile, RefusesWhatIsWrongByKeyAndRemedy) {
       {head + target + "[variables]\nmaterial.horison = [2, 3]\n", {"no such key", "did you mean material.horizon?"}},
       {head + target + "[variables]\noutput.history_interval = [0.001, 0.002]\n", {"cannot vary", "not the result"}},
       {head + target + "[variables]\nloading.until = [0.5, 0.6]\n", {"loading.until", "study.until"}},
+      {head + target + "[variables]\ntarget.tolerance = [0.1, 0.2]\n", {"target.tolerance", "for all candidates"}},
       {head + target + "[variables]\nmaterial_test.past_peak = [1.5, 2]\n", {"a run does not look at it"}},
       {head + target + "[variables]\nrow_diameter = [0.014, 0.02]\n",
        {"variables.row_diameter", "this is a list", "\"layout.row_diameter[0]\""}},
