@@ -1,4 +1,5 @@
-// What is here: the one kind of error a user sees (InputError), and the search for the nearest known name.
+// What is here: what a user did wrong (InputError), what the machine around the program did not do (SurroundingsError),
+// and the search for the nearest known name.
 // What is not: numerical failures (a status in a returned value) and bugs (assert).
 #pragma once
 
@@ -29,6 +30,14 @@ class InputError : public std::runtime_error {
  private:
   Origin origin_;
   std::string problem_;
+};
+
+/// The surroundings failed, not the input and not the work: a disk that is full, a lost worker, no memory. It is never
+/// the result of a design; the same command may succeed once there is room. what() is one sentence that names the file
+/// or the process and says what to do. The program turns it into exit code 3.
+class SurroundingsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// The candidate closest to `name` by edit distance (case-insensitive), or "" when none is within a third of its
