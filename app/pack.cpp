@@ -22,7 +22,7 @@ int pack(const PackFlags& flags) {
   const optimize::DesignFile design(flags.design, flags.common.overrides());
   const std::vector<std::string> warnings = design.validate(optimize::Purpose::block);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));
-  check_new_output(output, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
   log_warnings(warnings);
 
   ProgressLine progress("packing", flags.common.quiet);

@@ -138,7 +138,7 @@ int plot(const PlotFlags& flags) {
   const std::string name =
       flags.inputs.size() > 1 ? "comparison.png" : default_name(without_slash(flags.inputs.front()), ".png");
   const auto output = output_or_default(flags.output, name);
-  check_new_output(output, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
   draw(flags, output);
   if (flags.common.json)
     print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});

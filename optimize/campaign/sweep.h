@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimize/campaign/execution.h"
 #include "optimize/evaluate/design.h"
 #include "optimize/evaluate/request.h"
 
@@ -20,7 +21,7 @@ struct SweepKeys {
   double until = 0.0;            ///< engineering strain; 0: as the design says
   bool base = false;             ///< the design itself is case 0, to which all others are compared
   bool run_files = false;        ///< keep the run file of every simulation
-  int workers = 0;               ///< evaluations at once; 0: one a core. The result does not depend on it
+  ExecutionKeys execution;       ///< the result does not depend on it
   std::string measures = "first_peak_stress, plateau_stress, densification_strain";  ///< that the picture shows
 };
 

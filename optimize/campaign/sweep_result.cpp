@@ -105,21 +105,23 @@ json to_json(const SweepRun& run) {
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }
-  return {{"schema", results::sweep_schema},
-          {"status", results::status_name(run.status())},
-          {"reason", run.reason()},
-          {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
-          {"results_version", results_version},
-          {"replicates", run.sweep().keys.replicates},
-          {"runs", run.sweep().runs()},
-          {"left_out", run.sweep().left_out},
-          {"measures", run.sweep().measures},
-          {"plateau_window",
-           {run.sweep().start->design().measures.plateau_start,
-            run.sweep().start->design().measures.plateau_end}},
-          {"cases", cases},
-          {"performance",
-           {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
+  json record = {
+      {"schema", results::sweep_schema},
+      {"status", results::status_name(run.status())},
+      {"reason", run.reason()},
+      {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
+      {"results_version", results_version},
+      {"replicates", run.sweep().keys.replicates},
+      {"runs", run.sweep().runs()},
+      {"left_out", run.sweep().left_out},
+      {"measures", run.sweep().measures},
+      {"plateau_window",
+       {run.sweep().start->design().measures.plateau_start, run.sweep().start->design().measures.plateau_end}},
+      {"cases", cases},
+      {"performance",
+       {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
+  if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
+  return record;
 }
 
 std::string cases_csv(const SweepRun& run) {
