@@ -1,17 +1,13 @@
 // What is here: worker processes started as `perfora worker` with the flags of the command that needs them.
 #include "app/workers.h"
 
+#include "app/common.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
 
 namespace perfora::app {
-
-namespace {
-
-constexpr int most_workers = 4096;
-
-}  // namespace
 
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads) {
   return optimize::worker_processes(std::filesystem::read_symlink("/proc/self/exe"), workers, threads);
@@ -20,9 +16,10 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
       .add_option("--workers", workers,
-                  fmt::format("Evaluations at once, each in a process of its own (default: {}one a core)",
+                  fmt::format("Evaluations at once, each in a process of its own (default: {}one a processor that this "
+                              "process may use)",
                               what.empty() ? "" : fmt::format("as the {} says, or ", what)))
-      ->check(CLI::Range(1, most_workers))
+      ->check(no_more_than_help())
       ->type_name("W");
 }
 

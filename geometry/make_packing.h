@@ -8,6 +8,7 @@
 
 #include "geometry/clip.h"
 #include "geometry/packing.h"
+#include "io/cancellation.h"
 #include "io/schema.h"
 
 namespace perfora::geometry {
@@ -37,8 +38,10 @@ std::int64_t expected_discs(const PackingOptions& options, double width, double 
 
 /// The periodic, unclipped packing of a key; bitwise repeatable for one binary whatever the number of threads.
 /// A fraction that is not reached is `quality.reached = false`, not an exception. `progress(fraction_done, text)` may be empty.
+/// Throws io::Cancelled once `cancellation` is requested.
 Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
-                     const std::function<void(double, const std::string&)>& progress = {});
+                     const std::function<void(double, const std::string&)>& progress = {},
+                     const io::Cancellation& cancellation = {});
 
 /// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with
 /// file and line: for a radius that does not belong in the cell, for a disc that lies within another (also across the

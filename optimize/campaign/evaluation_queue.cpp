@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 #include "io/journal.h"
+#include "io/processors.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
@@ -43,8 +43,7 @@ std::string key_of(const json& record, DesignTexts& designs) {
 }  // namespace
 
 int workers_for(int asked, int of_file, std::int64_t together) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : cores;
+  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : io::default_threads();
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
@@ -151,6 +150,7 @@ void EvaluationQueue::drop_run_file(const Request& request) const {
 
 bool EvaluationQueue::run(Campaign& campaign) {
   using Clock = std::chrono::steady_clock;
+  const io::Cancellation::Attention attention = options_.cancellation.attend();
   std::unique_ptr<Executor> executor;
   std::vector<Asked> wanted = campaign.pending(answers_);
   bool stopped = options_.cancellation.requested();

@@ -49,7 +49,7 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.integer("refine_maxeval", keys.refine_maxeval, Range::non_negative(), "Candidates of the second stage");
   section.real("refine_step", keys.refine_step, Dimension::ratio, Range{0.0, 1.0, true, false},
                "First step of the second stage as a fraction of the bounds");
-  section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
+  section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a processor");
 }
 
 /// Everything that is needed while a study file is read.

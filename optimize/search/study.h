@@ -37,7 +37,7 @@ struct StudyKeys {
   std::string refine;          ///< local algorithm of a second stage that begins at the best candidate; "": none
   int refine_maxeval = 0;      ///< candidates of the second stage, beside maxeval
   double refine_step = 0.05;   ///< its initial step, as a fraction of the bounds
-  int workers = 0;             ///< evaluations at once; 0: one a core. The result does not depend on it
+  int workers = 0;             ///< evaluations at once; 0: one a processor. The result does not depend on it
 };
 
 /// One continuous variable: a numeric key of the design with its bounds (SI).
