@@ -120,8 +120,7 @@ json to_json(const SweepRun& run) {
           {"left_out", run.sweep().left_out},
           {"measures", run.sweep().measures},
           {"plateau_window",
-           {run.sweep().start->design().measures.plateau_start,
-            run.sweep().start->design().measures.plateau_end}},
+           {run.sweep().start->design().measures.plateau_start, run.sweep().start->design().measures.plateau_end}},
           {"cases", cases},
           {"performance",
            {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};

@@ -58,8 +58,8 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
 }
 
 // Plateaus of 1e5 (3 + r) + 1e4 zeta, r = 0, 1, 2: mean 4e5 + 1e4 zeta, half of its interval 4.303/sqrt(3) 1e5 =
-// 248.4 kPa (Student, two degrees of freedom). Wished 100 to 900 kPa: zeta = 1.1 gives 411 +- 248 kPa, within; 41.1 gives
-// 811 +- 248 kPa, across its upper end; 81.1 gives 1,211 +- 248 kPa, outside.
+// 248.4 kPa (Student, two degrees of freedom). Wished 100 to 900 kPa: zeta = 1.1 gives 411 +- 248 kPa, within; 41.1
+// gives 811 +- 248 kPa, across its upper end; 81.1 gives 1,211 +- 248 kPa, outside.
 TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
   const std::string wish = "[set]\ntarget.plateau_stress = \"500 kPa\"\ntarget.tolerance = 0.8\n";
   SweepRun run(sweep(sweep_text(wish + "[each]\nmaterial.rupture_delay = [1.1, 41.1, 81.1]\n")), options("out"));
