@@ -9,12 +9,14 @@
 #include <stdexcept>
 #include <thread>
 
+#include "io/files.h"
 #include "io/journal.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
 #include "results/history_file.h"
 #include "results/json.h"
+#include "results/record_reading.h"
 
 namespace perfora::optimize {
 namespace {
@@ -57,14 +59,16 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
     return results::read_history_file(file);
   });
   DesignTexts designs;  // replicates share theirs
-  for (const std::string& text : journal_->events()) {
-    const json record = json::parse(text);
-    if (record.value("event", "") == evaluation_name) {
-      take_evaluation(key_of(record, designs), record);
-      continue;
-    }
-    seen(record, answers_);
-  }
+  int line = 0;
+  for (const std::string& text : journal_->events())
+    results::read_from(options_.folder / "journal.jsonl", ++line,
+                       "restore the file from a copy, or delete this line and all after it to go on from there", [&] {
+                         const json record = json::parse(text);
+                         if (record.at("event") == evaluation_name)
+                           take_evaluation(key_of(record, designs), record);
+                         else
+                           seen(record, answers_);
+                       });
 }
 
 EvaluationQueue::~EvaluationQueue() = default;
@@ -88,7 +92,7 @@ void EvaluationQueue::keep_history(const std::string& key, const Evaluation& eva
     return stored.second.summary.final_strain > evaluation.summary.final_strain;
   });
   if (longer_known) return;
-  std::filesystem::create_directories(options_.folder / histories_folder);
+  io::make_folders(options_.folder / histories_folder);
   results::write_history_file(options_.folder / history_file(key), history, evaluation.grade);
 }
 
@@ -133,7 +137,7 @@ std::filesystem::path EvaluationQueue::run_file(const Request& request) {
 void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
   Request request = asked.request;
   if (!asked.run_file) {
-    std::filesystem::create_directories(options_.folder / runs_folder);
+    io::make_folders(options_.folder / runs_folder);
     request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
     request.frames = options_.keep_run_files;
   } else if (!asked.run_file->empty()) {
