@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <system_error>
 
 #include "io/error.h"
 #include "io/files.h"
@@ -167,8 +169,10 @@ void print_json(const nlohmann::json& object) {
 }
 
 void print_text(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw io::SurroundingsError("standard output cannot be written: " + std::generic_category().message(errno) +
+                                "; what was made is in its files, `perfora show` prints it again");
 }
 
 void print_record(const nlohmann::json& object, bool as_json, const std::string& source) {
@@ -226,10 +230,10 @@ std::filesystem::path output_or_default(const std::filesystem::path& given, cons
 }
 
 void check_new_output(const std::filesystem::path& path, bool force) {
+  io::check_output(path, force, true);  // what exists is refused here: no output of this kind is resumed
   if (!force && std::filesystem::exists(path))
     throw io::InputError({path.string(), 0, ""}, "already exists", "",
                          "--force replaces it, or name another output with -o");
-  io::check_output(path, force, false);
 }
 
 std::string default_name(const std::filesystem::path& design, const std::string& suffix) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/files.h"
 #include "io/journal.h"
 #include "io/processors.h"
 #include "io/progress.h"
@@ -15,6 +16,7 @@
 #include "optimize/campaign/campaign.h"
 #include "results/history_file.h"
 #include "results/json.h"
+#include "results/record_reading.h"
 
 namespace perfora::optimize {
 namespace {
@@ -56,14 +58,16 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
     return results::read_history_file(file);
   });
   DesignTexts designs;  // replicates share theirs
-  for (const std::string& text : journal_->events()) {
-    const json record = json::parse(text);
-    if (record.value("event", "") == evaluation_name) {
-      take_evaluation(key_of(record, designs), record);
-      continue;
-    }
-    seen(record, answers_);
-  }
+  int line = 0;
+  for (const std::string& text : journal_->events())
+    results::read_from(options_.folder / "journal.jsonl", ++line,
+                       "restore the file from a copy, or delete this line and all after it to go on from there", [&] {
+                         const json record = json::parse(text);
+                         if (record.at("event") == evaluation_name)
+                           take_evaluation(key_of(record, designs), record);
+                         else
+                           seen(record, answers_);
+                       });
 }
 
 EvaluationQueue::~EvaluationQueue() = default;
@@ -87,7 +91,7 @@ void EvaluationQueue::keep_history(const std::string& key, const Evaluation& eva
     return stored.second.summary.final_strain > evaluation.summary.final_strain;
   });
   if (longer_known) return;
-  std::filesystem::create_directories(options_.folder / histories_folder);
+  io::make_folders(options_.folder / histories_folder);
   results::write_history_file(options_.folder / history_file(key), history, evaluation.grade);
 }
 
@@ -132,7 +136,7 @@ std::filesystem::path EvaluationQueue::run_file(const Request& request) {
 void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
   Request request = asked.request;
   if (!asked.run_file) {
-    std::filesystem::create_directories(options_.folder / runs_folder);
+    io::make_folders(options_.folder / runs_folder);
     request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
     request.frames = options_.keep_run_files;
   } else if (!asked.run_file->empty()) {

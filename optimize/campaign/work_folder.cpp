@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "io/error.h"
+#include "io/files.h"
 #include "results/campaign_folder.h"
 
 namespace perfora::optimize {
@@ -40,6 +41,7 @@ std::vector<fs::path> own_paths(const fs::path& folder, const std::vector<std::s
 
 void prepare_work_folder(const fs::path& folder, const std::vector<std::string>& own_files, const std::string& what,
                          bool force, bool resume) {
+  io::check_name_length(folder);
   const auto journal = folder / "journal.jsonl";
   std::error_code ignored;
   const auto refuse = [](const fs::path& path, const std::string& problem, const std::string& remedy) {
@@ -64,6 +66,8 @@ void prepare_work_folder(const fs::path& folder, const std::vector<std::string>&
       refuse(path, fmt::format("{} would overwrite this file", with_article(what)),
              "start over with --force, or name another folder with -o");
   fs::create_directories(folder, ignored);
+  if (ignored == std::errc::no_space_on_device || ignored == std::errc::io_error)
+    io::fail_writing(folder, ignored.value());
   if (ignored)
     refuse(folder, fmt::format("the folder cannot be made ({})", ignored.message()), "name another one with -o");
 }
