@@ -86,7 +86,6 @@ report::CorrelationPicture picture_of(const SweepRecord& reference, const std::v
 }
 
 int correlate(const CorrelateFlags& flags) {
-  remove_stop_handlers();
   const auto measures = optimize::measures_in(flags.measures, {"--measures", 0, ""});
   if (measures.empty())
     throw io::InputError({"--measures", 0, ""}, "no result is named", "names such as plateau_stress", "");

@@ -1,6 +1,9 @@
 // What is here: the program perfora: its subcommands put together, and exceptions turned into one sentence and an exit
 // code. What is not: any work (one file a subcommand).
+#include <csignal>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
 
 #include "app/commands.h"
@@ -8,6 +11,7 @@
 #include "app/thread_policy.h"
 #include "app/usage_error.h"
 #include "io/error.h"
+#include "io/hdf5.h"
 #include "io/provenance.h"
 
 namespace {
@@ -49,14 +53,24 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   perfora::app::let_waiting_threads_sleep(argv);
+  // A file that may not grow and a reader that went away become errors of write(), each with its sentence.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  perfora::io::end_without_hdf5();
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    std::cout.flush();
+    if (!std::cout) throw perfora::io::SurroundingsError("standard output cannot be written");
+    return exit_code;
   } catch (const perfora::io::InputError& error) {
     perfora::io::log_error(error.what());
     return perfora::app::exit_input;
   } catch (const std::bad_alloc&) {
     perfora::io::log_error("out of memory; `perfora check` says how much a design needs");
-  } catch (const std::exception& error) {
+  } catch (const std::filesystem::filesystem_error& error) {
+    perfora::io::log_error(error.path1().string() + ": " + error.code().message() +
+                           "; check the disk and the folder, and run the command again");
+  } catch (const std::exception& error) {  // SurroundingsError among them
     perfora::io::log_error(error.what());
   }
   return perfora::app::exit_internal;

@@ -134,7 +134,6 @@ fs::path without_slash(const fs::path& path) {
 
 int plot(const PlotFlags& flags) {
   flags.common.apply();
-  remove_stop_handlers();
   const std::string name =
       flags.inputs.size() > 1 ? "comparison.png" : default_name(without_slash(flags.inputs.front()), ".png");
   const auto output = output_or_default(flags.output, name);

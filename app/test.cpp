@@ -24,7 +24,6 @@ constexpr int most_replicates = 1000;
 
 int test(const TestFlags& flags) {
   flags.common.apply();
-  remove_stop_handlers();
   const optimize::DesignFile design(flags.material, flags.common.overrides());
   const auto kinds = optimize::wanted_tests(design);
   log_warnings(optimize::material_sample(design).validate());

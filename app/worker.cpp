@@ -76,6 +76,8 @@ std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads
   } catch (const io::InputError& error) {
     return {results::to_json(optimize::failed_evaluation(error.what(), record.at("replicate").get<int>()), true),
             false};
+  } catch (const io::Cancelled&) {
+    return {trouble("stopped").first, true};
   } catch (const std::bad_alloc&) {
     return trouble("the worker ran out of memory");
   } catch (const std::exception& error) {

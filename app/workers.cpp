@@ -2,6 +2,8 @@
 // such work.
 #include "app/workers.h"
 
+#include "app/common.h"
+
 #include <fmt/format.h>
 
 #include "app/common.h"
@@ -9,19 +11,13 @@
 
 namespace perfora::app {
 
-namespace {
-
-constexpr int most_workers = 4096;
-
-}  // namespace
-
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
-      .add_option(
-          "--workers", workers,
-          fmt::format("Evaluations at once, each in a process of its own (default: as the {} says, or one a core)",
-                      what))
-      ->check(CLI::Range(1, most_workers))
+      .add_option("--workers", workers,
+                  fmt::format("Evaluations at once, each in a process of its own (default: as the {} says, or one a "
+                              "processor that this process may use)",
+                              what))
+      ->check(no_more_than_help())
       ->type_name("W");
 }
 

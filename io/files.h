@@ -1,30 +1,54 @@
-// What is here: whole files in and out, the rule for outputs that exist, CRC-32; the steps of writing a file whole.
+// What is here: whole files in and out, folders made, the rules for outputs that exist, CRC-32; the steps of writing a
+// file whole. Everything the program writes goes through here or through the journal.
 // What is not: the journal (journal.h), HDF5 (hdf5.h).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace perfora::io {
 
-/// "<path>.tmp-<pid>": beside the file, so that the rename stays within one file system.
+/// Where a file called `path` is written: `path`, or, where that is a symbolic link, what the link names, whether that
+/// is there yet or not. Throws InputError for links that lead in a circle.
+std::filesystem::path output_target(const std::filesystem::path& path);
+/// "<path>.tmp-<pid>-<host>": beside the file, so that the rename stays within one file system.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// fsync of a file or folder. Throws std::system_error.
+
+/// Throws SurroundingsError: one sentence that names the file, the error of the system and what to do.
+[[noreturn]] void fail_writing(const std::filesystem::path& path, int error);
+/// fsync of a file or folder. Throws SurroundingsError.
 void sync_path(const std::filesystem::path& path);
-/// rename(2), then sync of the folder. Throws std::system_error.
-void rename_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
 /// Writes everything or returns false with errno set.
 bool write_all(int descriptor, std::string_view text);
 
-/// Writes text whole: temporary name beside it, fsync, rename.
+/// Writes text whole: temporary name beside it, fsync, rename, fsync of the folder. Symbolic links are followed, other
+/// than regular files are not replaced, and what killed processes left of earlier tries is removed. Throws
+/// SurroundingsError; then nothing of the new file is left and an older one is as it was.
 void write_file(const std::filesystem::path& path, std::string_view text);
-/// Reads a whole file; throws InputError when it cannot or when it is larger than `largest` bytes.
+/// The same with the content of another file.
+void copy_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// The folder and those above it. Throws SurroundingsError.
+void make_folders(const std::filesystem::path& folder);
+/// Removes a file, where a symbolic link leads and not the link; nothing happens where there is none. Throws
+/// SurroundingsError.
+void remove_output(const std::filesystem::path& path);
+
+/// Reads a whole file; throws InputError when it cannot, is no regular file or is larger than `largest` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t largest = std::size_t{1} << 32);
-/// Refuses an output that exists unless `force` or `resume`; InputError says which flags there are. Also refuses when
-/// its folder is missing or not writable.
+/// The first bytes of a file, at most `size`; throws InputError as read_file does.
+std::string read_beginning(const std::filesystem::path& path, std::size_t size);
+
+/// Refuses a name that leaves no room for what is written beside it (R.xdmf.h5, R.part, temporary files). InputError.
+void check_name_length(const std::filesystem::path& path);
+/// Refuses an output that exists unless `force` or `resume`; InputError says which flags there are. Also refuses what
+/// exists and is no regular file, a name that is too long, and a folder that is missing or not writable. Symbolic links
+/// are followed.
 void check_output(const std::filesystem::path& path, bool force, bool resume);
 std::uint32_t crc32(std::string_view text);
+/// Goes on from the CRC-32 of what stands before `text`.
+std::uint32_t crc32(std::string_view text, std::uint32_t before);
 
 }  // namespace perfora::io

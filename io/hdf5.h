@@ -10,9 +10,9 @@
 
 namespace perfora::io {
 
-/// A file being written. It grows under "<path>.tmp-<pid>" and appears at `path` only when commit() succeeds; otherwise
-/// it is removed. Groups on the way to a dataset are made as needed. All datasets over 1 kB are shuffled and deflated.
-/// Throws std::runtime_error when the disk fails.
+/// A file being written. It grows in memory: HDF5 does not bear a disk that fails. commit() writes it whole, with the
+/// checksum of io/checksum_trailer.h behind it; without commit() nothing is written. Groups on the way to a dataset are
+/// made as needed. All datasets over 1 kB are shuffled and deflated. Throws SurroundingsError when memory or disk fail.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::filesystem::path path);
@@ -41,25 +41,31 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   /// Copies group or dataset `name` of another file to `target` here (attributes included).
   void copy_from(const std::filesystem::path& other, const std::string& name, const std::string& target);
-  /// Flushes, closes, fsyncs and renames into place.
+  /// Writes the file as write_file() does; takes as much memory again as the file is long.
   void commit();
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
   std::int64_t file_ = -1;
 };
 
-/// A file being read. Throws InputError naming the file (and the dataset) when it is missing, not HDF5, truncated, or
-/// lacks what is asked.
+/// What a reader asks of a file. Those written by Perfora 2 and older, or changed by another program, have no checksum.
+enum class Checksum { if_there, required };
+
+/// A file being read. Throws InputError naming the file (and the dataset) when it is missing, no regular file, not
+/// HDF5, damaged, or lacks what is asked. A checksum is tried before HDF5 sees the file; a file without one is tried in
+/// a process of its own first, as HDF5 may crash on damaged ones. Links to other files and storage in other files are
+/// not followed.
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(std::filesystem::path path);
+  explicit Hdf5Reader(std::filesystem::path path, Checksum checksum = Checksum::if_there);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Whether the file carries a checksum (that fits).
+  bool checked() const { return checked_; }
   bool has(const std::string& name) const;
   std::vector<std::string> children(const std::string& group) const;  ///< names in alphabetical order
   std::vector<std::int64_t> shape(const std::string& name) const;
@@ -76,8 +82,15 @@ class Hdf5Reader {
   std::int64_t attribute_int(const std::string& object, const std::string& name) const;
 
  private:
+  friend class Hdf5Writer;  // copies from it
+
   std::filesystem::path path_;
   std::int64_t file_ = -1;
+  bool checked_ = false;
 };
+
+/// For main(), before any file: HDF5 does nothing when the program ends. All files are closed by then, and after a
+/// failure its own clearing up would crash.
+void end_without_hdf5();
 
 }  // namespace perfora::io

@@ -1,11 +1,14 @@
-// What is here: what reader and writer of HDF5 share inside io: handles that close themselves, one lock, number types.
+// What is here: what reader and writer of HDF5 share inside io: handles that close themselves, one lock, number types,
+// the trial of doubtful files.
 // What is not: anything a caller of io sees; only the hdf5_*.cpp files include hdf5.h.
 #pragma once
 
 #include <hdf5.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <mutex>
+#include <string>
 #include <utility>
 
 namespace perfora::io {
@@ -60,7 +63,18 @@ inline hid_t native_type<std::uint8_t>() {
 
 /// A UTF-8 string type of variable length (h5py gives these back as str).
 Hdf5Handle string_type();
-/// Properties for opening and creating files: everything inside is closed with the file.
+/// Properties for opening files: everything inside is closed with the file, and HDF5's own locks are off: they fail on
+/// network file systems, and files are never changed in place.
 Hdf5Handle file_access();
+/// The same for a file that is made in memory.
+Hdf5Handle memory_access();
+
+/// Why this dataset is not read, or "": it lies in other files, needs a filter from elsewhere, or claims more than the
+/// file can hold. `size` is that of the file in bytes.
+std::string refused_dataset(hid_t dataset, std::uint64_t size);
+
+/// Tries a file without a checksum in a process of its own: reads every object of it there. HDF5 may crash or never
+/// end on a damaged one; then this is false. `size` is that of the file in bytes.
+bool survives_reading(const std::filesystem::path& path, std::uint64_t size);
 
 }  // namespace perfora::io

@@ -1,9 +1,12 @@
 // What is here: reading whole datasets and attributes of an HDF5 file, with an InputError for whatever is wrong with
 // it. What is not: writing (hdf5_writer.cpp).
 #include <algorithm>
+#include <ctime>
 #include <new>
 #include <stdexcept>
 
+#include "io/checksum_trailer.h"
+#include "io/descriptor.h"
 #include "io/error.h"
 #include "io/hdf5.h"
 #include "io/hdf5_common.h"
@@ -22,17 +25,22 @@ constexpr const char* damaged_remedy = "write it again or take a copy";
   refuse(path, name + " cannot be read: the file is damaged", damaged_remedy);
 }
 
-bool exists(hid_t file, const std::string& name) {
-  // H5Lexists wants every step of the way to exist.
-  for (std::size_t slash = name.find('/', 1); slash != std::string::npos; slash = name.find('/', slash + 1))
-    if (H5Lexists(file, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
-  if (name.empty()) return false;
-  return name == "/" ||
-         (H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 && H5Oexists_by_name(file, name.c_str(), H5P_DEFAULT) > 0);
+/// Whether `name` is there. Steps of the way that lead elsewhere are refused: another file is not looked into.
+bool exists(hid_t file, const std::filesystem::path& path, const std::string& name) {
+  if (name.empty() || name == "/") return !name.empty();
+  for (std::size_t slash = 0; slash != std::string::npos;) {  // H5Lexists wants every step of the way to exist
+    slash = name.find('/', slash + 1);
+    const std::string way = name.substr(0, slash);
+    if (H5Lexists(file, way.c_str(), H5P_DEFAULT) <= 0) return false;
+    H5L_info_t link{};
+    if (H5Lget_info(file, way.c_str(), &link, H5P_DEFAULT) < 0) refuse_damaged(path, way);
+    if (link.type != H5L_TYPE_HARD) refuse(path, way + " is a link that leads elsewhere, which is not followed", "");
+  }
+  return H5Oexists_by_name(file, name.c_str(), H5P_DEFAULT) > 0;
 }
 
 void require(hid_t file, const std::filesystem::path& path, const std::string& name) {
-  if (!exists(file, name)) refuse(path, "has no " + name, "check that it is the right kind of file");
+  if (!exists(file, path, name)) refuse(path, "has no " + name, "check that it is the right kind of file");
 }
 
 Hdf5Handle open_dataset(hid_t file, const std::filesystem::path& path, const std::string& name) {
@@ -41,6 +49,10 @@ Hdf5Handle open_dataset(hid_t file, const std::filesystem::path& path, const std
   if (!object.valid()) refuse_damaged(path, name);
   if (H5Iget_type(object.get()) != H5I_DATASET)
     refuse(path, name + " is not a dataset", "check that it is the right kind of file");
+  hsize_t size = 0;
+  if (H5Fget_filesize(file, &size) < 0) refuse_damaged(path, name);
+  const std::string problem = refused_dataset(object.get(), size);
+  if (!problem.empty()) refuse(path, name + " " + problem, damaged_remedy);
   return object;
 }
 
@@ -83,7 +95,7 @@ std::string read_text(hid_t type, const std::filesystem::path& path, const std::
     H5free_memory(pointer);
     return text;
   }
-  std::string text(H5Tget_size(type), '\0');
+  std::string text(H5Tget_size(type), '\0');  // no longer than what is stored: see refused_dataset()
   if (read(type, text.data()) < 0) refuse_damaged(path, name);
   return text.substr(0, text.find('\0'));
 }
@@ -127,19 +139,67 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
+/// A file that was looked at, as the system knows it.
+struct Seen {
+  dev_t device;
+  ino_t number;
+  off_t size;
+  timespec changed, written;
+  bool proved;
+};
+
+bool same(const timespec& a, const timespec& b) {
+  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+/// Files whose content was proved or tried by this process; frames of one file are read one by one. The caller holds
+/// hdf5_lock().
+std::vector<Seen>& seen_files() {
+  static std::vector<Seen> files;
+  return files;
+}
+
+/// Keeps what was found, but not of a file that was written just now: its time of writing may not tell it from the
+/// next content.
+void remember(const struct stat& status, bool proved) {
+  constexpr std::size_t most = 256;
+  constexpr time_t settled = 2;  // seconds
+  std::vector<Seen>& files = seen_files();
+  if (std::max(status.st_mtim.tv_sec, status.st_ctim.tv_sec) + settled > ::time(nullptr)) return;
+  if (files.size() == most) files.clear();
+  files.push_back({status.st_dev, status.st_ino, status.st_size, status.st_ctim, status.st_mtim, proved});
+}
+
+/// Whether the file has a checksum that fits. One without is tried; what is damaged is refused.
+bool is_proved(const OpenFile& file, const std::filesystem::path& path) {
+  const struct stat& status = file.status;
+  for (const Seen& seen : seen_files())
+    if (seen.device == status.st_dev && seen.number == status.st_ino && seen.size == status.st_size &&
+        same(seen.changed, status.st_ctim) && same(seen.written, status.st_mtim))
+      return seen.proved;
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const Trailer trailer = check_trailer(file.descriptor.get(), size, path);
+  if (trailer == Trailer::damaged) refuse(path, "is damaged (its checksum does not fit)", damaged_remedy);
+  if (trailer == Trailer::absent) {
+    if (H5Fis_hdf5(path.c_str()) <= 0)
+      refuse(path, "is not an HDF5 file, or may not be read", "check the path and its permissions");
+    if (!survives_reading(path, size)) refuse(path, "is cut off or damaged", damaged_remedy);
+  }
+  remember(status, trailer == Trailer::fits);
+  return trailer == Trailer::fits;
+}
+
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(std::filesystem::path path) : path_(std::move(path)) {
+Hdf5Reader::Hdf5Reader(std::filesystem::path path, Checksum checksum) : path_(std::move(path)) {
   const auto lock = hdf5_lock();
-  std::error_code error;
-  const auto status = std::filesystem::status(path_, error);
-  if (!std::filesystem::exists(status)) refuse(path_, "does not exist", "check the path");
-  if (!std::filesystem::is_regular_file(status)) refuse(path_, "is not a file", "check the path");
-  if (std::filesystem::file_size(path_, error) == 0) refuse(path_, "is empty", damaged_remedy);
+  const OpenFile file = open_regular(path_, wanted_file);
+  if (file.status.st_size == 0) refuse(path_, "is empty", damaged_remedy);
+  checked_ = is_proved(file, path_);
+  if (checksum == Checksum::required && !checked_)
+    refuse(path_, "has no checksum, so that damage would not be seen", damaged_remedy);
   file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, file_access().get());
-  if (file_ >= 0) return;
-  if (H5Fis_hdf5(path_.c_str()) > 0) refuse(path_, "is cut off or damaged", damaged_remedy);
-  refuse(path_, "is not an HDF5 file, or may not be read", "check the path and its permissions");
+  if (file_ < 0) refuse(path_, "is cut off or damaged", damaged_remedy);
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -149,7 +209,7 @@ Hdf5Reader::~Hdf5Reader() {
 
 bool Hdf5Reader::has(const std::string& name) const {
   const auto lock = hdf5_lock();
-  return exists(file_, name);
+  return exists(file_, path_, name);
 }
 
 std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
@@ -214,7 +274,7 @@ std::string Hdf5Reader::text(const std::string& name) const {
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
   const auto lock = hdf5_lock();
-  return exists(file_, object) && H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+  return exists(file_, path_, object) && H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 std::string Hdf5Reader::attribute_text(const std::string& object, const std::string& name) const {

@@ -1,11 +1,10 @@
-// What is here: writing an HDF5 file whole, under a temporary name until commit().
+// What is here: an HDF5 file made in memory and written whole by commit().
 // What is not: reading (hdf5_reader.cpp).
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
 
+#include "io/checksum_trailer.h"
 #include "io/error.h"
 #include "io/files.h"
 #include "io/hdf5.h"
@@ -18,9 +17,11 @@ constexpr std::size_t compress_above = 1000;                  // bytes; smaller 
 constexpr std::size_t chunk_bytes = std::size_t{512} * 1024;  // fits HDF5's default chunk cache of 1 MB
 constexpr unsigned deflate_level = 4;                         // higher levels cost time and gain a few per cent
 
+/// HDF5 works in memory here: what fails is the memory (or this program, which used a name twice).
 void check(hid_t result, const std::filesystem::path& path, const std::string& name) {
   if (result < 0)
-    throw std::runtime_error(path.string() + ": cannot write " + name + " (is the disk full, or the name used twice?)");
+    throw SurroundingsError(path.string() + " cannot be written: there was no memory to put " + name +
+                            " together; free some and run the command again (with --resume where it has that)");
 }
 
 Hdf5Handle make_groups_on_the_way() {
@@ -77,18 +78,16 @@ void write_attribute(hid_t file, const std::filesystem::path& path, const std::s
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(std::filesystem::path path) : path_(std::move(path)), temporary_(temporary_name(path_)) {
+Hdf5Writer::Hdf5Writer(std::filesystem::path path) : path_(std::move(path)) {
   const auto lock = hdf5_lock();
-  file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access().get());
-  if (file_ < 0)
-    throw InputError({path_.string(), 0, ""}, "cannot be written", "", "check that its folder exists and is writable");
+  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory_access().get());
+  check(file_, path_, "the file");
 }
 
 Hdf5Writer::~Hdf5Writer() {
   if (file_ < 0) return;
   const auto lock = hdf5_lock();
   H5Fclose(file_);
-  ::unlink(temporary_.c_str());
 }
 
 void Hdf5Writer::group(const std::string& name) {
@@ -142,27 +141,23 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 
 void Hdf5Writer::copy_from(const std::filesystem::path& other, const std::string& name, const std::string& target) {
   const auto lock = hdf5_lock();
-  // The reader says what is wrong with the other file.
-  if (!Hdf5Reader(other).has(name))
-    throw InputError({other.string(), 0, ""}, "has no " + name, "", "write the file again");
-  const Hdf5Handle source(H5Fopen(other.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
+  const Hdf5Reader source(other);  // says what is wrong with the other file
+  if (!source.has(name)) throw InputError({other.string(), 0, ""}, "has no " + name, "", "write the file again");
   const Hdf5Handle link = make_groups_on_the_way();
-  check(H5Ocopy(source.get(), name.c_str(), file_, target.c_str(), H5P_DEFAULT, link.get()), path_, target);
+  check(H5Ocopy(source.file_, name.c_str(), file_, target.c_str(), H5P_DEFAULT, link.get()), path_, target);
 }
 
 void Hdf5Writer::commit() {
   const auto lock = hdf5_lock();
   if (file_ < 0) throw std::logic_error(path_.string() + ": committed twice");
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), path_, "the file");
-  const hid_t file = std::exchange(file_, -1);
-  try {
-    check(H5Fclose(file), path_, "the file");
-    sync_path(temporary_);
-    rename_into_place(temporary_, path_);
-  } catch (...) {
-    ::unlink(temporary_.c_str());
-    throw;
-  }
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  check(size, path_, "the file");
+  std::string image(static_cast<std::size_t>(size), '\0');
+  check(H5Fget_file_image(file_, image.data(), image.size()), path_, "the file");
+  check(H5Fclose(std::exchange(file_, -1)), path_, "the file");
+  image += checksum_trailer(image);
+  write_file(path_, image);
 }
 
 }  // namespace perfora::io

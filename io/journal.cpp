@@ -54,12 +54,18 @@ int open_to_append(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::vector<std::string> read_journal(const std::filesystem::path& path) {
+  std::vector<std::string> events;
+  read_events(read_file(path), path.string(), events);
+  return events;
+}
+
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_to_append(path_)) {
   try {
     const std::string text = read_file(path_);
     size_ = read_events(text, path_.string(), events_);
     if (size_ < text.size() && (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0 || ::fsync(descriptor_) != 0))
-      throw std::system_error(errno, std::generic_category(), path_.string() + ": cannot be shortened");
+      fail_writing(path_, errno);
     const std::filesystem::path folder = path_.parent_path();
     sync_path(folder.empty() ? "." : folder);
   } catch (...) {
@@ -79,7 +85,7 @@ void Journal::append(std::string_view json) {
     const int error = errno;
     // What was written in part must not stand before the next event; if this fails too, the next opening cuts it.
     if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) errno = error;
-    throw std::system_error(error, std::generic_category(), path_.string() + ": cannot be written");
+    fail_writing(path_, error);
   }
   size_ += line.size();
   events_.emplace_back(json);

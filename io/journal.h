@@ -10,6 +10,10 @@
 
 namespace perfora::io {
 
+/// The events of a journal that somebody else may be writing; a torn last line is left out. Throws InputError when an
+/// earlier line fails its checksum.
+std::vector<std::string> read_journal(const std::filesystem::path& path);
+
 /// Reads and appends DIR/journal.jsonl. Each line is `<crc32 of the text, 8 hex digits> <JSON text>`.
 class Journal {
  public:

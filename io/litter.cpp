@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/files.h"
+
 namespace perfora::io {
 namespace {
 
@@ -38,12 +40,14 @@ const bool made = !table().empty();  // NOLINT(cert-err58-cpp): nothing in it th
 
 constexpr const char* mark = ".tmp-";
 
-/// The process that a temporary's name tells of; 0: it is none.
+/// The process of this host that a temporary's name tells of; 0: it is none.
 pid_t process_of(const std::string& name) {
+  const std::string own = temporary_name("").string(), of_this_host = own.substr(own.rfind('-'));
   const auto at = name.rfind(mark);
-  if (at == std::string::npos) return 0;
-  const long pid = std::strtol(name.c_str() + at + std::strlen(mark), nullptr, 10);
-  return pid > 0 ? static_cast<pid_t>(pid) : 0;
+  if (at == std::string::npos || !name.ends_with(of_this_host)) return 0;
+  char* end = nullptr;
+  const long pid = std::strtol(name.c_str() + at + std::strlen(mark), &end, 10);
+  return pid > 0 && end == name.c_str() + name.size() - of_this_host.size() ? static_cast<pid_t>(pid) : 0;
 }
 
 }  // namespace

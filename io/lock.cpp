@@ -254,7 +254,7 @@ class Renewal {
 }  // namespace
 
 fs::path lock_file(const fs::path& output) {
-  fs::path lock = output;
+  fs::path lock = output_target(output);
   lock += ".lock";
   return lock;
 }

@@ -36,7 +36,7 @@ class OutputLock {
   std::unique_ptr<Held> held_;
 };
 
-/// "R.h5.lock"
+/// "R.h5.lock", beside what the output is written to where that is a symbolic link (files.h).
 std::filesystem::path lock_file(const std::filesystem::path& output);
 
 }  // namespace perfora::io

@@ -155,6 +155,7 @@ Campaign read_campaign(const fs::path& folder) {
     if (files == std::end(files_of_kinds))
       throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration");
     const auto record = results::stored_summary(folder);
+    if (record) campaign.verdict = verdict_in(*record);
     campaign.record = record ? record->dump(2) : std::string();
     const auto status = results::status_called(record ? record->value("status", "") : "");
     campaign.status = status_of(status.value_or(results::RunStatus::stopped));

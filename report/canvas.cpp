@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 #include <stdexcept>
 
@@ -20,7 +21,11 @@ constexpr const char* font = "DejaVu Sans";
 constexpr double points_per_unit = 0.5;
 
 cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned length) {
-  static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
+  try {
+    static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
+  } catch (const std::bad_alloc&) {  // must not pass through cairo
+    return CAIRO_STATUS_NO_MEMORY;
+  }
   return CAIRO_STATUS_SUCCESS;
 }
 
@@ -192,14 +197,17 @@ void Canvas::badge(double x, double y, const std::string& letter) {
 }
 
 void Canvas::write() {
+  cairo_status_t status = cairo_status(context_);
   if (vector_) {
     cairo_show_page(context_);
     cairo_surface_finish(surface_);
   } else {
     cairo_surface_flush(surface_);
-    cairo_surface_write_to_png_stream(surface_, append_bytes, &bytes_);
+    const cairo_status_t written = cairo_surface_write_to_png_stream(surface_, append_bytes, &bytes_);
+    if (status == CAIRO_STATUS_SUCCESS) status = written;
   }
-  const cairo_status_t status = cairo_surface_status(surface_);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_);
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(path_.string() + ": the picture was not drawn: " + cairo_status_to_string(status));
   io::write_file(path_, bytes_);

@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "results/campaign_folder.h"
+#include "results/record_reading.h"
 #include "results/statistic.h"
 
 namespace perfora::results {
@@ -47,12 +48,16 @@ double mean_of(const json& strengths) {
 CalibrationRecord from_journal(const fs::path& folder) {
   CalibrationRecord record;
   bool first = true;
+  int line = 0;
   for (const json& event : journal_events(folder)) {
-    if (event.value("event", "") != "point") continue;
-    const double ratio = mean_of(event.at("compression")) / mean_of(event.at("tension"));
-    if (!first && std::isfinite(ratio))
-      record.points.push_back(
-          {event.at("rupture_delay").get<double>(), event.at("shear_ratio").get<double>(), ratio, false});
+    ++line;
+    if (event.at("event") != "point") continue;
+    read_from(folder / "journal.jsonl", line, "give the folder of `perfora calibrate`", [&] {
+      const double ratio = mean_of(event.at("compression")) / mean_of(event.at("tension"));
+      if (!first && std::isfinite(ratio))
+        record.points.push_back(
+            {event.at("rupture_delay").get<double>(), event.at("shear_ratio").get<double>(), ratio, false});
+    });
     first = false;
   }
   return record;
@@ -62,14 +67,14 @@ CalibrationRecord from_journal(const fs::path& folder) {
 
 CalibrationRecord read_calibration_record(const fs::path& path) {
   const fs::path file = fs::is_directory(path) ? path / "result.json" : path;
-  try {
-    if (!fs::exists(file) && fs::is_directory(path)) return from_journal(path);
+  const char* remedy = "give the folder or the result.json of `perfora calibrate`";
+  if (!fs::exists(file) && fs::is_directory(path)) return from_journal(path);
+  return read_from(file, 0, remedy, [&] {
     const json result = json::parse(io::read_file(file), nullptr, false);
-    if (result.is_object() && result.value("schema", "") == "perfora.calibrate/1") return from_result(result);
-  } catch (const json::exception&) {
-  }
-  throw io::InputError({file.string(), 0, ""}, "is not the result of a calibration", "",
-                       "give the folder or the result.json of `perfora calibrate`");
+    if (!result.is_object() || result.value("schema", "") != "perfora.calibrate/1")
+      throw io::InputError({file.string(), 0, ""}, "is not the result of a calibration", "", remedy);
+    return from_result(result);
+  });
 }
 
 }  // namespace perfora::results

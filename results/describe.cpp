@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 #include <map>
 
 #include "io/error.h"
@@ -152,15 +151,6 @@ std::string describe_folder(const std::filesystem::path& folder) {
   return text;
 }
 
-std::string beginning_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw io::InputError({path.string(), 0, ""}, "the file cannot be opened", "", "check the name");
-  std::string start(64, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  return start;
-}
-
 nlohmann::json parse_summary(const std::string& text, const std::filesystem::path& path) {
   nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
   const auto schema = object.is_object() ? object.find("schema") : object.end();
@@ -191,7 +181,7 @@ std::string kind_of_toml(const std::filesystem::path& path) {
 
 std::string describe_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return describe_folder(path);
-  const std::string start = beginning_of(path);
+  const std::string start = io::read_beginning(path, std::string_view(hdf5_signature).size());
   const std::string extension = path.extension().string();
   if (start.starts_with(hdf5_signature)) return describe_hdf5(path);
   if (extension == ".jsonl") return describe_journal(path);

@@ -27,8 +27,11 @@ ElasticResult read_elastic(const std::filesystem::path& path) {
   require_size(file, "/first_yield/disc_strain", elastic.disc_strain, elastic.clipped.x.size());
   for (const double strain : elastic.disc_strain)
     if (!(strain > 0.0)) refuse(file, "/first_yield/disc_strain", fmt::format("holds {}", strain), "positive strains");
-  elastic.stiffness = file.doubles("/stiffness");
-  elastic.affine_stiffness = file.doubles("/affine_stiffness");
+  elastic.stiffness = finite_doubles(file, "/stiffness");
+  elastic.affine_stiffness = finite_doubles(file, "/affine_stiffness");
+  constexpr std::size_t entries = 9;
+  require_size(file, "/stiffness", elastic.stiffness, entries);
+  require_size(file, "/affine_stiffness", elastic.affine_stiffness, entries);
   for (std::size_t e = 0; e < displacement_names.size(); ++e) {
     elastic.displacement[e] = finite_doubles(file, displacement_names[e]);
     require_size(file, displacement_names[e], elastic.displacement[e], 3 * elastic.clipped.x.size());
@@ -44,6 +47,7 @@ ElasticResult read_elastic(const std::filesystem::path& path) {
   require_size(file, "/first_yield/bonds/y", bonds.y, bonds.x.size());
   require_size(file, "/first_yield/bonds/strain", bonds.strain, bonds.x.size());
   require_size(file, "/first_yield/bonds/mode", bonds.mode, bonds.x.size());
+  require_modes(file, "/first_yield/bonds/mode", bonds.mode);
   elastic.summary = read_summary(file);
   return elastic;
 }

@@ -48,6 +48,12 @@ void require_discs(const io::Hdf5Reader& file, const std::string& name, const st
       refuse(file, name, fmt::format("names disc {}", disc), fmt::format("0 to {}", discs - 1));
 }
 
+void require_modes(const io::Hdf5Reader& file, const std::string& name, const std::vector<std::int32_t>& modes) {
+  for (const std::int32_t mode : modes)
+    if (mode != static_cast<int>(BreakMode::tension) && mode != static_cast<int>(BreakMode::shear))
+      refuse(file, name, fmt::format("holds {}", mode), "0 (tension) or 1 (shear)");
+}
+
 void require_packing(const io::Hdf5Reader& file, const std::string& group, const geometry::Packing& packing) {
   require_size(file, group + "/y", packing.y, packing.x.size());
   require_size(file, group + "/radius", packing.radius, packing.x.size());
@@ -167,6 +173,7 @@ std::vector<BreakEvent> read_events(const io::Hdf5Reader& file, const std::strin
   const auto i = integers("/i"), j = integers("/j"), mode = integers("/mode"), bond = integers("/bond");
   require_discs(file, group + "/i", i, discs);
   require_discs(file, group + "/j", j, discs);
+  require_modes(file, group + "/mode", mode);
   std::vector<BreakEvent> events(time.size());
   for (std::size_t k = 0; k < events.size(); ++k)
     events[k] = {time[k], strain[k], bond[k], i[k], j[k], x[k], y[k], static_cast<BreakMode>(mode[k]), energy[k]};

@@ -32,6 +32,8 @@ void require_size(const io::Hdf5Reader& file, const std::string& name, const Val
 void require_discs(const io::Hdf5Reader& file, const std::string& name, const std::vector<std::int32_t>& indices,
                    std::int32_t discs);
 /// Equally long, finite, positive radii.
+/// 0 or 1, as BreakMode.
+void require_modes(const io::Hdf5Reader& file, const std::string& name, const std::vector<std::int32_t>& modes);
 void require_packing(const io::Hdf5Reader& file, const std::string& group, const geometry::Packing& packing);
 std::vector<double> finite_doubles(const io::Hdf5Reader& file, const std::string& name);
 std::string optional_text(const io::Hdf5Reader& file, const std::string& name);

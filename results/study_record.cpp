@@ -11,6 +11,7 @@
 #include "io/files.h"
 #include "results/campaign_folder.h"
 #include "results/json.h"
+#include "results/record_reading.h"
 
 namespace perfora::results {
 namespace {
@@ -212,13 +213,9 @@ StudyRecord study_record_from_json(const json& object) {
 
 StudyRecord read_study_record(const fs::path& folder) {
   const fs::path file = folder / "study.json";
-  if (!fs::exists(file)) return from_results(folder);
-  try {
-    return study_record_from_json(json::parse(io::read_file(file)));
-  } catch (const json::exception& error) {
-    throw io::InputError({file.string(), 0, ""}, fmt::format("this is not what a study writes ({})", error.what()), "",
-                         "continue the study with --resume: it writes the file anew");
-  }
+  const char* remedy = "continue the study with --resume: it writes the file anew";
+  if (!fs::exists(file)) return read_from(folder / "result.json", 0, remedy, [&] { return from_results(folder); });
+  return read_from(file, 0, remedy, [&] { return study_record_from_json(json::parse(io::read_file(file))); });
 }
 
 }  // namespace perfora::results

@@ -13,6 +13,7 @@
 #include "io/files.h"
 #include "results/campaign_folder.h"
 #include "results/formats.h"
+#include "results/record_reading.h"
 #include "results/statistic.h"
 #include "results/sweep_places.h"
 
@@ -40,6 +41,32 @@ SweepCase* case_numbered(SweepRecord& record, const std::string& number) {
   return nullptr;
 }
 
+SweepRecord from_object(const json& object, const fs::path& file) {
+  SweepRecord record;
+  record.folder = fs::absolute(file).parent_path();
+  record.name = name_of(record.folder);
+  record.title = campaign_title(record.folder);
+  record.reason = object.value("reason", "");
+  record.replicates = object.value("replicates", 0);
+  // Older files do not say which: the two that every sweep is made for.
+  record.measures = object.value("measures", std::vector<std::string>{"first_peak_stress", "plateau_stress"});
+  record.plateau_window = object.value("plateau_window", std::vector<double>());
+  std::vector<std::string> columns;
+  for (const json& one : object.at("cases")) {
+    SweepCase& added = record.cases.emplace_back();
+    added.number = one.value("case", 0);
+    added.label = one.value("label", "");
+    added.can_run = one.value("problem", json()).is_null();
+    added.completed = one.value("completed", 0);
+    for (const auto& [name, statistic] : one.at("statistics").items())
+      added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
+    if (!columns.empty() || !one.contains("settings")) continue;
+    for (const auto& setting : one.at("settings").items()) columns.push_back(setting.key());
+  }
+  place_cases(record, columns);
+  return record;
+}
+
 }  // namespace
 
 SweepRecord read_sweep_record(const fs::path& path) {
@@ -52,31 +79,10 @@ SweepRecord read_sweep_record(const fs::path& path) {
   if (!fs::exists(file))
     throw refuse("this folder holds no result of a sweep (a sweep writes it when it ends or is stopped)");
   const json object = json::parse(io::read_file(file), nullptr, false);
-  if (!object.is_object() || object.value("schema", "") != sweep_schema || !object.contains("cases"))
+  if (!object.is_object() || !object.contains("schema") || object.at("schema") != sweep_schema ||
+      !object.contains("cases"))
     throw refuse("this is not the result of a sweep");
-  SweepRecord record;
-  record.folder = fs::absolute(file).parent_path();
-  record.name = name_of(record.folder);
-  record.title = campaign_title(record.folder);
-  record.reason = object.value("reason", "");
-  record.replicates = object.value("replicates", 0);
-  // Older files do not say which: the two that every sweep is made for.
-  record.measures = object.value("measures", std::vector<std::string>{"first_peak_stress", "plateau_stress"});
-  record.plateau_window = object.value("plateau_window", std::vector<double>());
-  std::vector<std::string> columns;
-  for (const json& one : object["cases"]) {
-    SweepCase& added = record.cases.emplace_back();
-    added.number = one.value("case", 0);
-    added.label = one.value("label", "");
-    added.can_run = one.value("problem", json()).is_null();
-    added.completed = one.value("completed", 0);
-    for (const auto& [name, statistic] : one["statistics"].items())
-      added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
-    if (!columns.empty() || !one.contains("settings")) continue;
-    for (const auto& setting : one["settings"].items()) columns.push_back(setting.key());
-  }
-  place_cases(record, columns);
-  return record;
+  return read_from(file, 0, remedy, [&] { return from_object(object, file); });
 }
 
 void read_sweep_runs(SweepRecord& record) {
@@ -107,7 +113,9 @@ void read_sweep_runs(SweepRecord& record) {
   }
 }
 
-SweepRecord read_ensemble_record(const fs::path& folder) {
+namespace {
+
+SweepRecord ensemble_in(const fs::path& folder) {
   SweepRecord record;
   record.folder = folder;
   record.name = record.title = name_of(folder);
@@ -159,6 +167,13 @@ SweepRecord read_ensemble_record(const fs::path& folder) {
     }
   }
   return record;
+}
+
+}  // namespace
+
+SweepRecord read_ensemble_record(const fs::path& folder) {
+  return read_from(folder / "journal.jsonl", 0, "give the folder of a `perfora evaluate --replicates`",
+                   [&] { return ensemble_in(folder); });
 }
 
 }  // namespace perfora::results

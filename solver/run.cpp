@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/files.h"
 #include "io/memory.h"
 #include "io/progress.h"
 #include "io/text.h"
@@ -247,10 +248,8 @@ class Run {
     const auto place = std::upper_bound(kept.begin(), kept.end(), progress_.peak_frame_strain);
     const auto number = static_cast<int>(place - kept.begin());
     for (int k = static_cast<int>(kept.size()); k > number; --k)
-      std::filesystem::copy_file(folder_.frame_file(k - 1), folder_.frame_file(k),
-                                 std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::copy_file(folder_.peak_frame_file(), folder_.frame_file(number),
-                               std::filesystem::copy_options::overwrite_existing);
+      io::copy_file(folder_.frame_file(k - 1), folder_.frame_file(k));
+    io::copy_file(folder_.peak_frame_file(), folder_.frame_file(number));
     kept.insert(place, progress_.peak_frame_strain);
     peak_frame_.reset();
   }

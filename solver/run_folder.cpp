@@ -29,7 +29,7 @@ RunFolder::RunFolder(const std::filesystem::path& run_file) : folder_(run_file) 
 void RunFolder::start_afresh(const std::string& config) {
   std::filesystem::remove(checkpoint_file());  // first: a folder without it is never taken for a run to resume
   std::filesystem::remove_all(folder_);
-  std::filesystem::create_directories(folder_ / "frames");
+  io::make_folders(folder_ / "frames");
   io::write_file(folder_ / "config.toml", config);
 }
 

@@ -7,14 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
+#include "io/files.h"
 #include "io/journal.h"
+#include "io/processors.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
 #include "results/history_file.h"
 #include "results/json.h"
+#include "results/record_reading.h"
 
 namespace perfora::optimize {
 namespace {
@@ -57,8 +59,7 @@ std::string trouble_text(const Trouble& trouble) {
 }
 
 int workers_for(int asked, int of_file, std::int64_t together) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : cores;
+  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : io::default_threads();
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
@@ -71,18 +72,20 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
     return results::read_history_file(file);
   });
   DesignTexts designs;  // replicates share theirs
-  for (const std::string& text : journal_->events()) {
-    const json record = json::parse(text);
-    const std::string event = record.value("event", "");
-    if (event == evaluation_name) {
-      if (!was_trouble(record)) take_evaluation(key_of(record, designs), record);
-      continue;
-    }
-    if (event == trouble_name) continue;
-    // A journal whose first event does not say it is of an earlier program.
-    if (record.contains("results_version") && record.value(run_files_kept, true)) only_own_runs_ = false;
-    seen(record, answers_);
-  }
+  int line = 0;
+  for (const std::string& text : journal_->events())
+    results::read_from(options_.folder / "journal.jsonl", ++line,
+                       "restore the file from a copy, or delete this line and all after it to go on from there", [&] {
+                         const json record = json::parse(text);
+                         const std::string event = record.at("event");
+                         if (event == evaluation_name && !was_trouble(record))
+                           take_evaluation(key_of(record, designs), record);
+                         if (event == evaluation_name || event == trouble_name) return;
+                         // One whose first event does not say it is of an earlier program.
+                         if (record.contains("results_version") && record.value(run_files_kept, true))
+                           only_own_runs_ = false;
+                         seen(record, answers_);
+                       });
 }
 
 EvaluationQueue::~EvaluationQueue() = default;
@@ -106,7 +109,7 @@ void EvaluationQueue::keep_history(const std::string& key, const Evaluation& eva
     return stored.second.summary.final_strain > evaluation.summary.final_strain;
   });
   if (longer_known) return;
-  std::filesystem::create_directories(options_.folder / histories_folder);
+  io::make_folders(options_.folder / histories_folder);
   results::write_history_file(options_.folder / history_file(key), history, evaluation.grade);
 }
 
@@ -197,7 +200,7 @@ std::filesystem::path EvaluationQueue::run_file(const Request& request) {
 void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
   Request request = asked.request;
   if (!asked.run_file) {
-    std::filesystem::create_directories(options_.folder / runs_folder);
+    io::make_folders(options_.folder / runs_folder);
     request.run_file = std::filesystem::absolute(options_.folder / run_file(asked.request));
     request.frames = options_.keep_run_files;
   } else if (!asked.run_file->empty()) {
@@ -215,6 +218,7 @@ void EvaluationQueue::drop_run_file(const Request& request) const {
 
 bool EvaluationQueue::run(Campaign& campaign) {
   using Clock = std::chrono::steady_clock;
+  const io::Cancellation::Attention attention = options_.cancellation.attend();
   std::unique_ptr<Executor> executor;
   std::vector<Asked> wanted = wanted_by(campaign);
   bool stopped = options_.cancellation.requested();

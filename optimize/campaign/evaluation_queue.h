@@ -151,8 +151,8 @@ class EvaluationQueue {
 /// The event that an answer is in a journal.
 nlohmann::json evaluation_event(const Asked& asked, const Answer& answer);
 
-/// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
-/// be under way together.
+/// How many evaluations run at once: `asked`, or what the file says, or one a processor (io::default_threads; 0: not
+/// given), but not more than can be under way together.
 int workers_for(int asked, int of_file, std::int64_t together);
 
 }  // namespace perfora::optimize

@@ -7,7 +7,7 @@ namespace perfora::optimize {
 
 void describe(io::Section section, ExecutionKeys& keys) {
   constexpr int most_attempts = 100;
-  section.integer("workers", keys.workers, io::Range::non_negative(), "Evaluations at once; 0: one a core")
+  section.integer("workers", keys.workers, io::Range::non_negative(), "Evaluations at once; 0: one a processor")
       .choice(
           "on_trouble", keys.on_trouble,
           {{"retry", OnTrouble::retry}, {"stop", OnTrouble::stop}, {"skip", OnTrouble::skip}},

@@ -17,7 +17,7 @@ enum class OnTrouble {
 
 /// Nothing here changes a result, so all of it may change when work goes on.
 struct ExecutionKeys {
-  int workers = 0;  ///< evaluations at once; 0: one a core
+  int workers = 0;  ///< evaluations at once; 0: one a processor
   OnTrouble on_trouble = OnTrouble::retry;
   int attempts = 3;
   double time_limit = 0.0;  ///< s of wall time an evaluation may take; 0: from its estimate (time_limit.h)

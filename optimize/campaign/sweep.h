@@ -52,7 +52,7 @@ struct Sweep {
   std::shared_ptr<const DesignFile> start;
   std::vector<std::string> warnings;
 
-  int workers(int asked) const;  ///< `asked`, or keys.workers, or all cores, but not more than there are runs
+  int workers(int asked) const;  ///< `asked`, or keys.workers, or one a processor, but not more than there are runs
   std::int64_t runs() const;     ///< different designs that can be run x replicates
 };
 

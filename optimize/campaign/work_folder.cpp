@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "io/error.h"
+#include "io/files.h"
 #include "io/litter.h"
 #include "results/campaign_folder.h"
 
@@ -41,6 +42,7 @@ std::vector<fs::path> own_paths(const fs::path& folder, const std::vector<std::s
 
 io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::string>& own_files,
                                  const std::string& what, bool force, bool resume) {
+  io::check_name_length(folder);
   const auto journal = folder / "journal.jsonl";
   std::error_code failed, ignored;
   const auto refuse = [](const fs::path& path, const std::string& problem, const std::string& remedy) {
@@ -50,6 +52,8 @@ io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::
     refuse(folder, fmt::format("this is a file, and {} needs a folder", with_article(what)),
            "name another one with -o");
   fs::create_directories(folder, failed);
+  if (failed == std::errc::no_space_on_device || failed == std::errc::io_error)
+    io::fail_writing(folder, failed.value());
   if (failed)
     refuse(folder, fmt::format("the folder cannot be made ({})", failed.message()), "name another one with -o");
   io::OutputLock lock(journal);

@@ -28,8 +28,8 @@ io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resum
                          "--resume continues it, --force throws it away, or name another output with -o");
   // Both go, or --resume would find the old run's end beside the new one's beginning.
   fs::remove_all(part);
-  fs::remove(run_file);
-  for (const fs::path& path : beside) fs::remove(path);
+  io::remove_output(run_file);
+  for (const fs::path& path : beside) io::remove_output(path);
   return lock;
 }
 

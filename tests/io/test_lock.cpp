@@ -209,7 +209,8 @@ TEST_F(Lock, RemovesWhatKilledWritersOfItsOutputLeft) {
   const pid_t dead = start_holder();
   end(dead);
   const std::string mark = ".tmp-" + std::to_string(dead), own = ".tmp-" + std::to_string(::getpid());
-  for (const std::string& name : {"R.h5" + mark, "R.csv" + mark, "R.csv" + own, "S.csv" + mark, std::string("R.tmp-x")})
+  for (const std::string& name :
+       std::vector<std::string>{"R.h5" + mark, "R.csv" + mark, "R.csv" + own, "S.csv" + mark, std::string("R.tmp-x")})
     folder.file(name, "half");
   const OutputLock held(output);
   EXPECT_FALSE(fs::exists(folder / ("R.h5" + mark)));
