@@ -28,8 +28,8 @@ class Litter {
 /// in a child process made by fork().
 void remove_litter() noexcept;
 
-/// Removes the files "NAME.tmp-PID..." of `folder` whose NAME begins with `start` and whose process PID of this host
-/// has ended (files.h, temporary_name). For whoever holds the lock of the output (lock.h). Errors are passed over.
+/// Removes the temporaries (files.h, temporary_name) of `folder` whose names begin with `start` and whose process, of this
+/// host, has ended. Errors are passed over: what stays does no harm.
 void remove_dead_temporaries(const std::filesystem::path& folder, const std::string& start = "") noexcept;
 
 }  // namespace perfora::io

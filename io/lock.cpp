@@ -164,11 +164,9 @@ bool is_nobodys(const Found& found) {
 }
 
 [[noreturn]] void refuse_write(const fs::path& output, int error) {
-  const std::string why = std::generic_category().message(error);
   if (error == ENOSPC || error == EDQUOT || error == EIO || error == ENOMEM || error == ENFILE || error == EMFILE)
-    throw SurroundingsError(
-        fmt::format("{}: its lock cannot be written: {}; make room and try again", output.string(), why));
-  throw InputError({output.string(), 0, ""}, "cannot be locked: " + why, "",
+    fail_writing(lock_file(output), error);
+  throw InputError({output.string(), 0, ""}, "cannot be locked: " + std::generic_category().message(error), "",
                    "name an output in a folder that can be written");
 }
 

@@ -216,8 +216,9 @@ class KillMatrix : public testing::TestWithParam<Command> {
     std::vector<std::string> arguments = command.arguments;
     for (std::string& text : arguments)
       if (text.ends_with(".toml")) text = folder_ / text;
-    for (const std::string& text : {std::string("-o"), (folder_ / place / command.output).string(),
-                                    std::string("--threads"), std::to_string(threads), std::string("--quiet")})
+    for (const std::string& text :
+         std::vector<std::string>{std::string("-o"), (folder_ / place / command.output).string(),
+                                  std::string("--threads"), std::to_string(threads), std::string("--quiet")})
       arguments.push_back(text);
     if (command.workers) arguments.insert(arguments.end(), {"--workers", std::to_string(workers)});
     arguments.insert(arguments.end(), further.begin(), further.end());
@@ -307,7 +308,7 @@ TEST_P(KillMatrix, ASecondProcessIsRefusedAndHarmsNothing) {
   for (int k = 0; k < 20000 && !fs::exists(folder_ / "shared" / lock); ++k) std::this_thread::sleep_for(500us);
   kill(first, SIGSTOP);  // It lives, however fast the others are.
   ASSERT_TRUE(fs::exists(folder_ / "shared" / lock));
-  for (const std::string flag : {"--force", "--quiet", "--resume"}) {
+  for (const std::string& flag : std::vector<std::string>{"--force", "--quiet", "--resume"}) {
     if (flag == "--resume" && GetParam().again != flag) continue;
     const auto from = std::chrono::steady_clock::now();
     EXPECT_EQ(finish(begin("shared", 1, 1, {flag})), 1);

@@ -208,7 +208,8 @@ TEST_F(Lock, OneTakesOver) {
 TEST_F(Lock, RemovesWhatKilledWritersOfItsOutputLeft) {
   const pid_t dead = start_holder();
   end(dead);
-  const std::string mark = ".tmp-" + std::to_string(dead), own = ".tmp-" + std::to_string(::getpid());
+  const std::string own = temporary_name("").string(), host = own.substr(own.rfind('-'));
+  const std::string mark = ".tmp-" + std::to_string(dead) + host;
   for (const std::string& name :
        std::vector<std::string>{"R.h5" + mark, "R.csv" + mark, "R.csv" + own, "S.csv" + mark, std::string("R.tmp-x")})
     folder.file(name, "half");

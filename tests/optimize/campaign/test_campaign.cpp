@@ -328,11 +328,11 @@ TEST_F(CampaignTest, WhatAKillLeftGoesWithTheEnd) {
     Counting run("a", 2, options(false, 1));
     run.run();
   }
-  const pid_t gone = 4194304;  // beyond the largest number of a process
   for (const char* folder : {"work/runs/left.part", "work/histories"})
     std::filesystem::create_directories(folder_ / folder);
-  const std::string mark = ".tmp-" + std::to_string(gone);
-  for (const std::string& name : {"work/runs/left.h5", "work/runs/left.part/x", "work/histories/left.h5"})
+  const std::string own = io::temporary_name("").string();
+  const std::string mark = ".tmp-4194305" + own.substr(own.rfind('-'));  // beyond the largest number of a process
+  for (const char* name : {"work/runs/left.h5", "work/runs/left.part/x", "work/histories/left.h5"})
     folder_.file(name, "left");
   for (const char* name : {"work/sum.txt", "work/runs/left.h5", "work/histories/left.h5"})
     folder_.file(name + mark, "half");
