@@ -22,7 +22,7 @@ struct CalibrateFlags {
   CommonFlags common;
   std::string file, output;
   bool resume = false;
-  int workers = 0;
+  WorkerFlags workers;
 };
 
 int calibrate(const CalibrateFlags& flags) {
@@ -39,9 +39,12 @@ int calibrate(const CalibrateFlags& flags) {
   options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
-  const int side_by_side = flags.workers > 0 ? flags.workers : options.threads;
-  options.make_executor =
-      worker_executor(optimize::calibration_workers(calibration, side_by_side), flags.common.thread_count());
+  const optimize::ExecutionKeys& execution = calibration.keys.execution;
+  const int side_by_side = flags.workers.workers > 0 ? flags.workers.workers
+                           : execution.workers > 0   ? execution.workers
+                                                     : options.threads;
+  options.make_executor = worker_executor(
+      flags.workers, execution, optimize::calibration_workers(calibration, side_by_side), flags.common.thread_count());
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
   progress.finish(fmt::format("{}, {}", result.reason, io::duration(result.seconds)));
   const auto record = optimize::to_json(result);
@@ -52,16 +55,13 @@ int calibrate(const CalibrateFlags& flags) {
   }
   print_record(record, flags.common.json);
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
-  if (result.status == results::RunStatus::stopped)
-    io::log_warning("stopped; finished tests are kept; continue with the same command and --resume");
-  else
-    io::log_info("written: " + options.folder.string());
+  if (result.status != results::RunStatus::stopped) io::log_info("written: " + options.folder.string());
   if (!result.material_file.empty() && !flags.common.json)
     print_text(
         fmt::format("To use this material, write in a design (the path is relative to its file):\n[material]\n"
                     "from = \"{}\"\n",
                     result.material_file.string()));
-  return exit_code_of(result.status);
+  return say_how_work_ended(result.status, result.troubles, options.folder);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void add_calibrate(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder to write (default: CALIBRATION's name + -calibration)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Continue a calibration that was stopped or killed");
-  add_workers_flag(*command, flags->workers, "");
+  add_worker_flags(*command, flags->workers, "calibration");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
 }

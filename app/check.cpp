@@ -1,7 +1,6 @@
 // What is here: `perfora check`: what a design, a study, a sweep or a calibration would run, without placing a disc.
 // What is not: the estimates (optimize/evaluate/estimate.h).
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <optional>
 #include <set>
@@ -35,15 +34,6 @@ std::string line(const std::string& label, const std::string& value) {
   return fmt::format("  {:<38} {}\n", label, value);
 }
 
-/// A warning when the machine has less memory than a run is expected to take, `bytes`.
-void warn_about_memory(double bytes, std::vector<std::string>& warnings) {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (bytes > memory)
-    warnings.push_back(fmt::format("a run takes about {}, this machine has {}: take larger discs or a smaller cell",
-                                   io::quantity(bytes, io::Dimension::memory),
-                                   io::quantity(memory, io::Dimension::memory)));
-}
-
 json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
   const bool holes = estimate.perforations > 0;
   return {{"perforations", estimate.perforations},
@@ -74,7 +64,11 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
            double most_memory = 0.0) {
   const int threads = flags.common.thread_count();
   const optimize::DesignEstimate estimate = optimize::estimate_design(design, threads);
-  warn_about_memory(std::max(estimate.memory_bytes, most_memory), warnings);
+  optimize::DesignEstimate largest = estimate;
+  largest.memory_bytes = std::max(estimate.memory_bytes, most_memory);
+  const std::string memory = optimize::memory_problem(design, largest, flags.common.memory_allowed());
+  if (!memory.empty()) warnings.push_back(memory);
+  for (std::string& text : optimize::cost_warnings(estimate)) warnings.push_back(std::move(text));
   const json expected = estimate_json(estimate, threads);
   if (flags.common.json) {
     json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};

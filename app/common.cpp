@@ -3,17 +3,22 @@
 #include "app/common.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <system_error>
-#include <thread>
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/litter.h"
+#include "io/memory.h"
+#include "io/processors.h"
+#include "io/units.h"
 #include "optimize/evaluate/design.h"
+#include "optimize/evaluate/estimate.h"
 #include "results/summary_text.h"
 
 namespace perfora::app {
@@ -23,16 +28,20 @@ namespace {
 std::string command_line_text;       // NOLINT: written once by main()
 io::CancellationSource stop_source;  // NOLINT: a signal handler has no argument to find it by
 
+/// Async-signal-safe.
 extern "C" void ask_to_stop(int) {
   stop_source.request();
+  if (stop_source.attended()) return;
+  constexpr std::string_view text = "perfora: stopped by a signal; there was nothing to keep\n";
+  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+  io::remove_litter();
+  ::_exit(exit_stopped);
 }
 
 /// Whole numbers from 0 (derive from --seed) to 2^53 - 1 (exact in JSON).
 CLI::Validator seed_range() {
   return CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1).description("");
 }
-constexpr int most_threads = 4096;
-
 /// The argument as a shell would need it.
 std::string quoted(const std::string& argument) {
   if (!argument.empty() && argument.find_first_of(" \t\n\"'\\$&|;<>()*?[]{}#~`!") == std::string::npos) return argument;
@@ -94,9 +103,15 @@ std::vector<std::string> CommonFlags::overrides() const {
 
 int CommonFlags::thread_count(int otherwise) const {
   const int wanted = threads > 0 ? threads : otherwise;
-  if (wanted > 0) return wanted;
-  const unsigned cores = std::thread::hardware_concurrency();
-  return cores > 0 ? static_cast<int>(cores) : 1;
+  return wanted > 0 ? wanted : io::default_threads();
+}
+
+double CommonFlags::memory_allowed() const {
+  if (memory.empty()) return io::usable_memory_bytes();
+  const io::Origin origin{"--memory", 0, ""};
+  const double bytes = io::parse_quantity(io::Value{memory}, io::Dimension::memory, origin);
+  if (!(bytes > 0.0)) throw io::InputError(origin, memory + " is no memory", "a size such as \"24 GB\"");
+  return bytes;
 }
 
 void CommonFlags::apply() const {
@@ -117,15 +132,31 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
   add_seed_flag("--noise-seed", flags.noise_seed, "Seed of the strength field alone (0: from --seed)");
   add_seed_flag("--layout-seed", flags.layout_seed, "Seed of random layouts and jitter alone (0: from --seed)");
   add_seed_flag("--search-seed", flags.search_seed, "Seed of the search alone (0: from --seed)");
-  command.add_option("--threads", flags.threads, "Number of threads (default: all cores)")
+  command.add_option("--threads", flags.threads, "Number of threads (default: the processors this process may use)")
       ->group(design_group)
-      ->check(CLI::Range(1, most_threads).description(""))
+      ->check(no_more_than_help())
       ->type_name("N");
+  command
+      .add_option("--memory", flags.memory,
+                  "Memory that all of it may take, as \"24 GB\" (default: what this process may have)")
+      ->group(design_group)
+      ->type_name("SIZE");
   command.add_flag("--json", flags.json, "Print one JSON object on standard output, everything else on standard error")
       ->group(output_group);
   command.add_flag("--quiet", flags.quiet, "No log and no progress, only warnings, errors and the result")
       ->group(output_group);
   command.add_flag("--force", flags.force, "Replace an output that exists")->group(output_group);
+}
+
+CLI::Validator no_more_than_help() {
+  return {[](std::string& text) {
+            int number = 0;
+            const int most = io::most_threads(), usable = io::usable_processors();
+            if (CLI::detail::lexical_cast(text, number) && number >= 1 && number <= most) return std::string();
+            return fmt::format("{} is outside 1 to {}: this process may use {} processor{}, and more would only wait",
+                               text, most, usable, usable == 1 ? "" : "s");
+          },
+          ""};
 }
 
 void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what) {
@@ -167,17 +198,12 @@ void install_stop_handlers() {
   action.sa_handler = ask_to_stop;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESETHAND | SA_RESTART;  // the second signal meets the default action
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
+    sigaction(signal, &action, nullptr);
 }
 
 io::Cancellation stop_token() {
   return stop_source.token();
-}
-
-void remove_stop_handlers() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
 }
 
 ProgressLine::ProgressLine(std::string title, bool quiet) : title_(std::move(title)), quiet_(quiet) {}
@@ -205,11 +231,13 @@ std::filesystem::path output_or_default(const std::filesystem::path& given, cons
   return fallback;
 }
 
-void check_new_output(const std::filesystem::path& path, bool force) {
-  io::check_output(path, force, true);  // what exists is refused here: no output of this kind is resumed
+io::OutputLock claim_new_output(const std::filesystem::path& path, bool force) {
+  io::check_output(path, true, false);  // that there is a folder for the lock, and what is there may be replaced
+  io::OutputLock lock(path);
   if (!force && std::filesystem::exists(path))
     throw io::InputError({path.string(), 0, ""}, "already exists", "",
                          "--force replaces it, or name another output with -o");
+  return lock;
 }
 
 std::string default_name(const std::filesystem::path& design, const std::string& suffix) {
@@ -218,6 +246,14 @@ std::string default_name(const std::filesystem::path& design, const std::string&
 
 void log_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) io::log_warning(warning);
+}
+
+void check_cost(const optimize::DesignFile& design, const CommonFlags& flags) {
+  const optimize::DesignEstimate estimate = optimize::estimate_design(design, flags.thread_count());
+  log_warnings(optimize::cost_warnings(estimate));
+  const std::string problem = optimize::memory_problem(design, estimate, flags.memory_allowed());
+  if (!problem.empty())
+    throw io::InputError({design.path().string(), 0, ""}, problem, "", "--memory SIZE allows more at your own risk");
 }
 
 void refuse_resume_with_force(bool resume, bool force) {

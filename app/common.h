@@ -12,9 +12,14 @@
 #include <vector>
 
 #include "io/cancellation.h"
+#include "io/lock.h"
 #include "io/progress.h"
 #include "results/progress.h"
 #include "results/status.h"
+
+namespace perfora::optimize {
+class DesignFile;
+}
 
 namespace perfora::app {
 
@@ -34,13 +39,16 @@ struct CommonFlags {
   std::vector<std::string> set;    ///< "section.key=value", in order
   std::vector<std::int64_t> seed;  ///< empty or one entry: --seed
   std::vector<std::int64_t> packing_seed, noise_seed, layout_seed, search_seed;
-  int threads = 0;  ///< 0: not given
+  int threads = 0;     ///< 0: not given
+  std::string memory;  ///< --memory, empty: not given
   bool json = false, quiet = false, force = false;
 
   /// --set first, then the seed flags as "seeds.seed=5", ...: what DesignFile takes.
   std::vector<std::string> overrides() const;
-  /// --threads, or `otherwise` when it was not given; 0 stands for all cores.
+  /// --threads, or `otherwise` when it was not given; 0 stands for io::default_threads().
   int thread_count(int otherwise = 0) const;
+  /// --memory in bytes, or what the machine and the limits of this process allow. Throws io::InputError.
+  double memory_allowed() const;
   /// Quiet or normal log; call first in every subcommand.
   void apply() const;
 };
@@ -48,6 +56,9 @@ struct CommonFlags {
 /// Which of the common flags mean something for a subcommand; the others are accepted, hidden and without effect.
 enum class Uses { design, files_only };
 void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses = Uses::design);
+
+/// Refuses a number of threads or worker processes beyond io::most_threads().
+CLI::Validator no_more_than_help();
 
 /// --only: cases of a sweep by their labels; `what` follows "Only the cases that have TEXT in their name (repeatable)".
 void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what = "");
@@ -64,12 +75,12 @@ void print_record(const nlohmann::json& object, bool as_json, const std::string&
 const std::string& command_line();
 void set_command_line(int argc, char** argv);
 
-/// SIGINT and SIGTERM request the stop that stop_token() tells of; a second one ends the program at once.
+/// INT, TERM, HUP (a lost terminal), QUIT, USR1, USR2 (batch systems before their limit) and XCPU request the stop that
+/// stop_token() tells of. Where nobody looks at the token (packing, drawing, reading: nothing to keep yet), or at a
+/// second signal of the kind, the program ends at once; the former with exit code 75 and nothing left behind.
 void install_stop_handlers();
 /// What every compression, test or search of this program is given: it writes a checkpoint or its journal and stops.
 io::Cancellation stop_token();
-/// They end the program at once: for subcommands without checkpoints, whose outputs appear whole at their end.
-void remove_stop_handlers();
 
 /// Draws io::Progress lines for EvaluateOptions::progress; silent when quiet. It must outlive the callbacks it gives.
 class ProgressLine {
@@ -91,12 +102,16 @@ void refuse_resume_with_force(bool resume, bool force);
 
 /// The output path: `given`, or `fallback` in the current folder, announced on standard error.
 std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback);
-/// Refuses an output that exists unless `force`, and a folder that is missing or not writable. For outputs that cannot
-/// be resumed.
-void check_new_output(const std::filesystem::path& path, bool force);
+/// Takes an output that cannot be resumed: holds its lock, refuses one that exists unless `force`, one that another
+/// process uses in any case, and a folder that is missing or not writable.
+[[nodiscard]] io::OutputLock claim_new_output(const std::filesystem::path& path, bool force);
 /// "stem of the design" + suffix.
 std::string default_name(const std::filesystem::path& design, const std::string& suffix);
 /// Logs each warning of DesignFile::validate().
 void log_warnings(const std::vector<std::string>& warnings);
+
+/// What an evaluation of `design` costs: logs what a user should know beforehand, and throws io::InputError for one
+/// that takes more memory than the flags and the machine allow.
+void check_cost(const optimize::DesignFile& design, const CommonFlags& flags);
 
 }  // namespace perfora::app

@@ -86,11 +86,11 @@ report::CorrelationPicture picture_of(const SweepRecord& reference, const std::v
 }
 
 int correlate(const CorrelateFlags& flags) {
-  remove_stop_handlers();
   const auto measures = optimize::measures_in(flags.measures, {"--measures", 0, ""});
   if (measures.empty())
     throw io::InputError({"--measures", 0, ""}, "no result is named", "names such as plateau_stress", "");
-  if (!flags.output.empty()) check_new_output(flags.output, flags.common.force);
+  io::OutputLock lock;
+  if (!flags.output.empty()) lock = claim_new_output(flags.output, flags.common.force);
   const SweepRecord reference = optimize::read_completed_sweep(flags.reference);
   std::vector<Comparison> comparisons;
   nlohmann::json entries = nlohmann::json::array();

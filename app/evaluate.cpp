@@ -62,7 +62,10 @@ int evaluate_one(const EvaluateFlags& flags) {
   ProgressLine progress("compression", flags.common.quiet);
   optimize::EvaluateOptions options = evaluate_options(flags, progress);
   options.run_file = output_or_default(flags.output, default_name(flags.design, ".h5"));
-  log_warnings(optimize::prepare_evaluation(design, options, 0, flags.common.force));
+  static_cast<void>(design.validate());  // its warnings come with those of the preparation
+  check_cost(design, flags.common);
+  const optimize::PreparedEvaluation prepared = optimize::prepare_evaluation(design, options, 0, flags.common.force);
+  log_warnings(prepared.warnings);
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
   if (std::filesystem::exists(options.run_file)) write_beside(options.run_file);
@@ -96,13 +99,13 @@ void warn_about_edges(const solver::BoundaryOptions& boundary, std::vector<std::
 
 int evaluate_elastic(const EvaluateFlags& flags) {
   refuse_with_elastic(flags);
-  remove_stop_handlers();
   const optimize::DesignFile design = read_design(flags);
   std::vector<std::string> warnings = design.validate(optimize::Purpose::block);
   warn_about_edges(design.design().solver.boundary, warnings);
+  check_cost(design, flags.common);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-elastic.h5"));
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
-  check_new_output(output, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
   log_warnings(warnings);
   ProgressLine progress("packing", flags.common.quiet);
   const optimize::ElasticResponse answer = optimize::elastic_response(design, evaluate_options(flags, progress), 0);
@@ -123,6 +126,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
 int evaluate_replicates(const EvaluateFlags& flags) {
   const optimize::DesignFile design = read_design(flags);
   const std::vector<std::string> warnings = design.validate();
+  check_cost(design, flags.common);
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
   optimize::EnsembleOptions options;
   ProgressLine progress("ensemble", flags.common.quiet);
@@ -134,7 +138,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   log_warnings(warnings);
   options.finished = [&](const optimize::Evaluation& evaluation, const std::filesystem::path& run_file, bool kept) {
     progress.finish("");
-    if (!kept && std::filesystem::exists(run_file)) write_beside(run_file);
+    if (std::filesystem::exists(run_file) && !(kept && all_beside(run_file))) write_beside(run_file);
     io::log_info(fmt::format("replicate {} of {}{}: first peak {}, plateau {}", evaluation.replicate + 1,
                              flags.replicates, kept ? " (was finished)" : "",
                              io::quantity(evaluation.summary.first_peak_stress, io::Dimension::stress, "none"),

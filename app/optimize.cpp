@@ -25,7 +25,7 @@ struct OptimizeFlags {
   std::string study, output;
   bool resume = false;
   bool no_run_file = false;
-  int workers = 0;
+  WorkerFlags workers;
 };
 
 optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::Study& study) {
@@ -35,7 +35,9 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.force = flags.common.force;
   options.command_line = command_line();
   options.cancellation = stop_token();
-  options.make_executor = worker_executor(optimize::useful_workers(study, flags.workers), flags.common.thread_count());
+  options.make_executor =
+      worker_executor(flags.workers, study.keys.execution, optimize::useful_workers(study, flags.workers.workers),
+                      flags.common.thread_count());
   return options;
 }
 
@@ -88,13 +90,10 @@ int optimize_study(const OptimizeFlags& flags) {
   }
   if (run.plan().best) draw(run);
   print_record(optimize::to_json(run), flags.common.json);
-  if (status == results::RunStatus::stopped)
-    io::log_warning(
-        fmt::format("stopped; what is finished is kept in {}; continue with --resume", options.folder.string()));
-  else
+  if (status != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{})", options.folder.string(),
                              run.plan().best ? ", best.toml, pictures study.png and best.png" : ""));
-  return exit_code_of(status);
+  return say_how_work_ended(status, run.troubles(), options.folder);
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Continue a study that was stopped or killed");
-  add_workers_flag(*command, flags->workers, "study");
+  add_worker_flags(*command, flags->workers, "study");
   command->add_flag("--no-run-file", flags->no_run_file,
                     "Do not run the best design once more for best.h5 and best.png");
   add_common_flags(*command, flags->common);

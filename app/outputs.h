@@ -6,6 +6,9 @@
 
 namespace perfora::app {
 
+/// Whether everything that write_beside() makes is there.
+bool all_beside(const std::filesystem::path& run_file);
+
 /// Writes R.csv and R.xdmf beside R.h5.
 void write_beside(const std::filesystem::path& run_file);
 

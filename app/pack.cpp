@@ -18,11 +18,11 @@ struct PackFlags {
 
 int pack(const PackFlags& flags) {
   flags.common.apply();
-  remove_stop_handlers();
   const optimize::DesignFile design(flags.design, flags.common.overrides());
   const std::vector<std::string> warnings = design.validate(optimize::Purpose::block);
+  check_cost(design, flags.common);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));
-  check_new_output(output, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
   log_warnings(warnings);
 
   ProgressLine progress("packing", flags.common.quiet);

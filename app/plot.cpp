@@ -134,11 +134,10 @@ fs::path without_slash(const fs::path& path) {
 
 int plot(const PlotFlags& flags) {
   flags.common.apply();
-  remove_stop_handlers();
   const std::string name =
       flags.inputs.size() > 1 ? "comparison.png" : default_name(without_slash(flags.inputs.front()), ".png");
   const auto output = output_or_default(flags.output, name);
-  check_new_output(output, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
   draw(flags, output);
   if (flags.common.json)
     print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});

@@ -20,7 +20,7 @@ struct SweepFlags {
   std::string sweep, output;
   std::vector<std::string> only;
   bool resume = false;
-  int workers = 0;
+  WorkerFlags workers;
 };
 
 optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
@@ -31,7 +31,8 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.command_line = command_line();
   options.keep_run_files = sweep.keys.run_files;
   options.cancellation = stop_token();
-  options.make_executor = worker_executor(sweep.workers(flags.workers), flags.common.thread_count());
+  options.make_executor = worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers),
+                                          flags.common.thread_count());
   return options;
 }
 
@@ -54,13 +55,10 @@ int sweep_designs(const SweepFlags& flags) {
     io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");
   const auto record = optimize::to_json(run);
   print_record(record, flags.common.json);
-  if (run.status() == results::RunStatus::stopped)
-    io::log_warning(
-        fmt::format("stopped; what is finished is kept in {}; continue with --resume", options.folder.string()));
-  else
+  if (run.status() != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
                              options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));
-  return exit_code_of(run.status());
+  return say_how_work_ended(run.status(), run.troubles(), options.folder);
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
   command->add_flag("--resume", flags->resume,
                     "Continue a sweep that was stopped, killed or extended; finished runs are kept");
   add_only_flag(*command, flags->only, ", and the design itself where the sweep has it as a case");
-  add_workers_flag(*command, flags->workers, "sweep");
+  add_worker_flags(*command, flags->workers, "sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();

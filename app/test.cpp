@@ -24,7 +24,6 @@ constexpr int most_replicates = 1000;
 
 int test(const TestFlags& flags) {
   flags.common.apply();
-  remove_stop_handlers();
   const optimize::DesignFile design(flags.material, flags.common.overrides());
   const auto kinds = optimize::wanted_tests(design);
   log_warnings(optimize::material_sample(design).validate());
@@ -33,8 +32,8 @@ int test(const TestFlags& flags) {
     io::log_warning("material tests are periodic, with sides that follow a stress; [boundary] is not looked at");
   const auto output = output_or_default(flags.output, default_name(flags.material, "-test.h5"));
   const auto picture = std::filesystem::path(output).replace_extension(".png");
-  check_new_output(output, flags.common.force);
-  check_new_output(picture, flags.common.force);
+  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock_of_picture = claim_new_output(picture, flags.common.force);
 
   ProgressLine progress("material tests", flags.common.quiet);
   optimize::MaterialTestsOptions options;

@@ -1,8 +1,16 @@
 // What is here: the hidden subcommand `worker`: one Request (JSON) a line on standard input, one Evaluation (JSON, with
-// its curve) a line on standard output, until standard input ends. What is not: who starts workers
-// (optimize/campaign/executor.h).
+// its curve) or trouble a line on standard output, until standard input ends; signs of life in between. What is not:
+// who starts workers (optimize/campaign/executor.h).
+#include <signal.h>
+
+#include <chrono>
+#include <condition_variable>
 #include <iostream>
+#include <mutex>
+#include <new>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/common.h"
@@ -12,24 +20,82 @@ namespace perfora::app {
 
 namespace {
 
-/// A design that this program cannot read is a failed evaluation like one that cannot be evaluated.
-optimize::Evaluation answer(const nlohmann::json& record, int threads) {
+/// Lines on standard output, one at a time, and a sign of life every second from begin() to end(): from a thread, so
+/// that it comes from long steps, too, and stops when the process is stopped.
+class Lines {
+ public:
+  Lines() {
+    sigset_t all, before;  // Signals are the business of the thread that computes.
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);
+    thread_ = std::thread([this] { tell(); });
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  ~Lines() {
+    {
+      const std::lock_guard guard(mutex_);
+      ended_ = true;
+      changed_.notify_all();
+    }
+    thread_.join();
+  }
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
+
+  void begin() {
+    const std::lock_guard guard(mutex_);
+    computing_ = true;
+  }
+  /// Ends the signs of life with an answer.
+  void end(const nlohmann::json& answer) {
+    const std::lock_guard guard(mutex_);
+    computing_ = false;
+    print_text(answer.dump() + "\n");
+  }
+
+ private:
+  void tell() {
+    std::unique_lock guard(mutex_);
+    while (!changed_.wait_for(guard, std::chrono::seconds(1), [this] { return ended_; }))
+      if (computing_) print_text("{\"alive\":true}\n");
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool computing_ = false, ended_ = false;
+  std::thread thread_;
+};
+
+/// What the worker says for a request, and whether it was told to stop. A design that this program cannot read is a
+/// failed evaluation like one that cannot be evaluated; what is not the design's fault is a trouble.
+std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads) {
+  const auto trouble = [](const std::string& text) { return std::pair{nlohmann::json{{"trouble", text}}, false}; };
   try {
-    return optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token());
+    const auto evaluation = optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token());
+    return {results::to_json(evaluation, true), evaluation.status == results::RunStatus::stopped};
   } catch (const io::InputError& error) {
-    return optimize::failed_evaluation(error.what(), record.at("replicate").get<int>());
+    return {results::to_json(optimize::failed_evaluation(error.what(), record.at("replicate").get<int>()), true),
+            false};
+  } catch (const io::Cancelled&) {
+    return {trouble("stopped").first, true};
+  } catch (const std::bad_alloc&) {
+    return trouble("the worker ran out of memory");
+  } catch (const std::exception& error) {
+    return trouble(error.what());
   }
 }
 
 int work(int threads) {
+  Lines lines;
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
-    const optimize::Evaluation evaluation = answer(nlohmann::json::parse(line), threads);
-    print_text(results::to_json(evaluation, true).dump() + "\n");
+    lines.begin();
+    const auto [said, stopped] = answer(nlohmann::json::parse(line), threads);
+    lines.end(said);
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.
-    if (evaluation.status == results::RunStatus::stopped) return exit_stopped;
+    if (stopped) return exit_stopped;
   }
   return exit_ok;
 }

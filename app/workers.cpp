@@ -1,29 +1,56 @@
-// What is here: worker processes started as `perfora worker` with the flags of the command that needs them.
+// What is here: worker processes started as `perfora worker` with the flags of the command that needs them; the end of
+// such work.
 #include "app/workers.h"
+
+#include "app/common.h"
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include "app/common.h"
+#include "io/progress.h"
 
 namespace perfora::app {
-
-namespace {
-
-constexpr int most_workers = 4096;
-
-}  // namespace
-
-std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads) {
-  return optimize::worker_processes(std::filesystem::read_symlink("/proc/self/exe"), workers, threads);
-}
 
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what) {
   command
       .add_option("--workers", workers,
-                  fmt::format("Evaluations at once, each in a process of its own (default: {}one a core)",
-                              what.empty() ? "" : fmt::format("as the {} says, or ", what)))
-      ->check(CLI::Range(1, most_workers))
+                  fmt::format("Evaluations at once, each in a process of its own (default: as the {} says, or one a "
+                              "processor that this process may use)",
+                              what))
+      ->check(no_more_than_help())
       ->type_name("W");
+}
+
+void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& what) {
+  add_workers_flag(command, flags.workers, what);
+  command
+      .add_option(
+          "--time-limit", flags.time_limit,
+          fmt::format("Replace a worker after this many seconds of one evaluation (default: as the {} says, or 20 "
+                      "times the estimate and a minute)",
+                      what))
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+}
+
+std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
+                                                                     const optimize::ExecutionKeys& of_file,
+                                                                     int workers, int threads) {
+  return optimize::worker_processes(std::filesystem::read_symlink("/proc/self/exe"), workers, threads,
+                                    flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit);
+}
+
+int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,
+                       const std::filesystem::path& folder) {
+  for (const std::string& trouble : troubles)
+    io::log_error(
+        fmt::format("the surroundings failed, not the work: {}; what is finished is kept in {}; continue with "
+                    "--resume",
+                    trouble, folder.string()));
+  if (!troubles.empty()) return exit_internal;
+  if (status == results::RunStatus::stopped)
+    io::log_warning(fmt::format("stopped; what is finished is kept in {}; continue with --resume", folder.string()));
+  return exit_code_of(status);
 }
 
 }  // namespace perfora::app

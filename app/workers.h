@@ -1,20 +1,37 @@
-// What is here: how campaigns come to worker processes: this program again, as `perfora worker`. What is not:
-// the workers' loop (worker.cpp), what carries requests to them (optimize/campaign/executor.h).
+// What is here: how campaigns come to worker processes: this program again, as `perfora worker`; how their end is told.
+// What is not: the workers' loop (worker.cpp), what carries requests to them (optimize/campaign/executor.h).
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "optimize/campaign/execution.h"
 #include "optimize/campaign/executor.h"
 
 namespace perfora::app {
 
-/// Makes an executor of `workers` child processes that share `threads` threads.
-std::function<std::unique_ptr<optimize::Executor>()> worker_executor(int workers, int threads);
-
-/// --workers; what says it otherwise ("study"); empty: nothing does.
+/// --workers and --time-limit; 0: not given.
+struct WorkerFlags {
+  int workers = 0;
+  double time_limit = 0.0;  ///< s
+};
+/// --workers alone; `what` names the file that says it otherwise ("study").
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what);
+/// Both flags.
+void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& what);
+
+/// Makes an executor of `workers` child processes that share `threads` threads. `of_file`: what the file says where the
+/// flags do not.
+std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
+                                                                     const optimize::ExecutionKeys& of_file,
+                                                                     int workers, int threads);
+
+/// Tells of work that has stopped in its folder, and what the surroundings did where they ended it; the exit code.
+int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,
+                       const std::filesystem::path& folder);
 
 }  // namespace perfora::app

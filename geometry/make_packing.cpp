@@ -200,8 +200,8 @@ void judge(Packing& packing, double wanted, double jamming_fraction, std::int64_
 }
 
 Packing jam_and_dilate(SoftDiscs start, double wanted, double fraction, double unit, double width, double height,
-                       int threads, const Progress& progress) {
-  OverlapMinimiser minimiser(std::move(start), threads);
+                       int threads, const Progress& progress, const io::Cancellation& cancellation) {
+  OverlapMinimiser minimiser(std::move(start), threads, cancellation);
   // Wanted radii are those of scale 1.
   const JamResult jammed = jam(minimiser, wanted > 0.0 ? 1.0 : 0.0, [&](double done) {
     if (progress) progress(done, "jamming " + std::to_string(minimiser.discs().x.size()) + " discs");
@@ -215,8 +215,8 @@ Packing jam_and_dilate(SoftDiscs start, double wanted, double fraction, double u
 }
 
 Packing quench(SoftDiscs start, double wanted, double unit, double width, double height, int threads,
-               const Progress& progress) {
-  OverlapMinimiser minimiser(std::move(start), threads);
+               const Progress& progress, const io::Cancellation& cancellation) {
+  OverlapMinimiser minimiser(std::move(start), threads, cancellation);
   if (progress) progress(0.0, "quenching " + std::to_string(minimiser.discs().x.size()) + " discs");
   // Half the limit, so that rounding to metres cannot pass it; a force balance with larger overlaps will not get
   // better.
@@ -278,7 +278,7 @@ std::int64_t expected_discs(const PackingOptions& options, double width, double 
 }
 
 Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
-                     const Progress& progress) {
+                     const Progress& progress, const io::Cancellation& cancellation) {
   if (!options.file.empty()) return import_packing(options.file, width, height);
   const std::int64_t count = expected_discs(options, width, height);
   const SizeLaw law = law_of(options);
@@ -291,9 +291,10 @@ Packing make_packing(const PackingOptions& options, double width, double height,
       static_cast<double>(count) * 0.25 * std::numbers::pi * mean_square * unit * unit / (width * height);
   const double fraction = wanted > 0.0 ? wanted : natural;
   SoftDiscs start = random_start(law, count, fraction, width / unit, height / unit, seed);
-  Packing packing = options.protocol == PackingProtocol::quench
-                        ? quench(std::move(start), wanted, unit, width, height, threads, progress)
-                        : jam_and_dilate(std::move(start), wanted, fraction, unit, width, height, threads, progress);
+  Packing packing =
+      options.protocol == PackingProtocol::quench
+          ? quench(std::move(start), wanted, unit, width, height, threads, progress, cancellation)
+          : jam_and_dilate(std::move(start), wanted, fraction, unit, width, height, threads, progress, cancellation);
   packing.key = packing_key(options, width, height, seed);
   if (progress) progress(1.0, packing.quality.reached ? "packed" : packing.quality.reason);
   return packing;

@@ -8,6 +8,7 @@
 
 #include "geometry/clip.h"
 #include "geometry/packing.h"
+#include "io/cancellation.h"
 #include "io/schema.h"
 
 namespace perfora::geometry {
@@ -18,11 +19,11 @@ enum class PackingProtocol { dilate, quench };
 struct PackingOptions {
   double mean_diameter = 0.5044e-3;
   double maximum_diameter = 1.0e-3;
-  double size_ratio = 3.0;           ///< d_max/d_min
-  double solid_fraction = 0.0;       ///< 0: what compaction reaches
+  double size_ratio = 3.0;      ///< d_max/d_min
+  double solid_fraction = 0.0;  ///< 0: what compaction reaches
   PackingProtocol protocol = PackingProtocol::dilate;
   ClipRule clip = ClipRule::centre;
-  std::filesystem::path file;        ///< CSV (x, y, radius in metres) to import instead of making one
+  std::filesystem::path file;  ///< CSV (x, y, radius in metres) to import instead of making one
 };
 
 void describe(io::Schema& schema, PackingOptions& options);
@@ -36,13 +37,15 @@ PackingKey packing_key(const PackingOptions& options, double width, double heigh
 std::int64_t expected_discs(const PackingOptions& options, double width, double height);
 
 /// The periodic, unclipped packing of a key; bitwise repeatable for one binary whatever the number of threads.
-/// A fraction that is not reached is `quality.reached = false`, not an exception. `progress(fraction_done, text)` may be empty.
+/// A fraction that is not reached is `quality.reached = false`, not an exception. `progress(fraction_done, text)` may
+/// be empty. Throws io::Cancelled once `cancellation` is requested.
 Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
-                     const std::function<void(double, const std::string&)>& progress = {});
+                     const std::function<void(double, const std::string&)>& progress = {},
+                     const io::Cancellation& cancellation = {});
 
-/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError with
-/// file and line: for a radius that does not belong in the cell, for a disc that lies within another (also across the
-/// boundary), for more area of discs than the cell has.
+/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError
+/// with file and line: for a radius that does not belong in the cell, for a disc that lies within another (also across
+/// the boundary), for more area of discs than the cell has.
 Packing import_packing(const std::filesystem::path& csv, double width, double height);
 
 }  // namespace perfora::geometry

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace perfora::geometry {
 
@@ -43,9 +44,10 @@ double inside(double value, double period) {
 
 }  // namespace
 
-OverlapMinimiser::OverlapMinimiser(SoftDiscs discs, int threads)
+OverlapMinimiser::OverlapMinimiser(SoftDiscs discs, int threads, io::Cancellation cancellation)
     : discs_(std::move(discs)),
       threads_(std::clamp(threads, 1, static_cast<int>(1 + discs_.x.size() / discs_per_thread))),
+      cancellation_(std::move(cancellation)),
       chunks_(static_cast<std::int64_t>((discs_.x.size() + chunk_size - 1) / chunk_size)),
       lists_(discs_.width, discs_.height, discs_.radius, threads_),
       push_(first_push),
@@ -167,6 +169,7 @@ OverlapState OverlapMinimiser::minimise(double scale, const StopRule& stop) {
   for (std::int64_t iteration = 0;; ++iteration) {
     const ForceSums forces = sum_forces(scale);
     if (iteration % iterations_between_checks == 0 || iteration >= stop.maximum_iterations) {
+      if (cancellation_.requested()) throw io::Cancelled();
       state = measure(scale, forces, stop, iteration);
       if (state.converged || iteration >= stop.maximum_iterations) break;
     }

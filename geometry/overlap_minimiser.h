@@ -8,6 +8,7 @@
 
 #include "geometry/pair_forces.h"
 #include "geometry/pair_lists.h"
+#include "io/cancellation.h"
 
 namespace perfora::geometry {
 
@@ -41,7 +42,8 @@ struct StopRule {
 /// proportional to the radii. Sums run over fixed chunks: the bits do not depend on the number of threads.
 class OverlapMinimiser {
  public:
-  OverlapMinimiser(SoftDiscs discs, int threads);
+  /// Once `cancellation` is requested, minimise() throws io::Cancelled.
+  OverlapMinimiser(SoftDiscs discs, int threads, io::Cancellation cancellation = {});
 
   /// Minimises from the present positions with radii scale * radius. Cost: about three pairs a disc and iteration.
   OverlapState minimise(double scale, const StopRule& stop);
@@ -58,6 +60,7 @@ class OverlapMinimiser {
 
   SoftDiscs discs_;
   int threads_;
+  io::Cancellation cancellation_;
   std::int64_t chunks_;
   double largest_radius_ = 0.0;
   PairLists lists_;

@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -12,12 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <system_error>
 
 #include "io/descriptor.h"
 #include "io/error.h"
+#include "io/litter.h"
 
 namespace perfora::io {
 namespace {
@@ -35,23 +34,6 @@ const std::string& host_tag() {
     return fmt::format("{:04x}", crc32(name.data()) & 0xffffU);
   }();
   return tag;
-}
-
-/// Whether `name` is a temporary file of `of` that a process of this host left which is no more.
-bool is_left_behind(const std::string& name, const std::string& of) {
-  const std::string start = of + ".tmp-", end = "-" + host_tag();
-  if (name.size() <= start.size() + end.size() || !name.starts_with(start) || !name.ends_with(end)) return false;
-  pid_t process = 0;
-  const char* last = name.data() + name.size() - end.size();
-  const auto [stop, error] = std::from_chars(name.data() + start.size(), last, process);
-  return error == std::errc() && stop == last && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
-void remove_left_behind(const std::filesystem::path& target) {
-  std::error_code ignored;  // litter that cannot be removed does not stand in the way
-  const std::string of = target.filename().string();
-  for (const auto& entry : std::filesystem::directory_iterator(folder_of(target), ignored))
-    if (is_left_behind(entry.path().filename().string(), of)) ::unlink(entry.path().c_str());
 }
 
 /// Some file systems sync neither files nor folders (EINVAL, ENOTSUP); nothing more can be done there.
@@ -107,8 +89,9 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     if (const std::string kind = kind_of_file(status.st_mode); !kind.empty())
       throw SurroundingsError(
           fmt::format("{} cannot be written: it became {}; remove it or name another output", path.string(), kind));
-  remove_left_behind(target);
+  remove_dead_temporaries(folder_of(target), target.filename().string() + ".tmp-");
   const std::filesystem::path temporary = temporary_name(target);
+  const Litter litter(temporary);
   try {
     write_whole(temporary, text);
     if (::rename(temporary.c_str(), target.c_str()) != 0) throw std::system_error(errno, std::generic_category());

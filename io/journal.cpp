@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -45,20 +44,12 @@ std::size_t read_events(std::string_view text, const std::string& file, std::vec
   return start;
 }
 
-int open_locked(const std::filesystem::path& path) {
-  const Origin origin{path.string(), 0, ""};
+int open_to_append(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0)
-    throw InputError(origin, "cannot be opened: " + std::generic_category().message(errno), "",
+    throw InputError({path.string(), 0, ""}, "cannot be opened: " + std::generic_category().message(errno), "",
                      "check that its folder exists and is writable");
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  const int error = errno;
-  ::close(descriptor);
-  if (error == EWOULDBLOCK)
-    throw InputError(origin, "is in use by another process", "",
-                     "wait for it to end, stop it, or choose another folder");
-  throw InputError(origin, "cannot be locked: " + std::generic_category().message(error), "",
-                   "choose a folder on a file system with locks");
+  return descriptor;
 }
 
 }  // namespace
@@ -69,7 +60,7 @@ std::vector<std::string> read_journal(const std::filesystem::path& path) {
   return events;
 }
 
-Journal::Journal(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_locked(path_)) {
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_to_append(path_)) {
   try {
     const std::string text = read_file(path_);
     size_ = read_events(text, path_.string(), events_);

@@ -17,8 +17,8 @@ std::vector<std::string> read_journal(const std::filesystem::path& path);
 /// Reads and appends DIR/journal.jsonl. Each line is `<crc32 of the text, 8 hex digits> <JSON text>`.
 class Journal {
  public:
-  /// Opens or creates the file and takes an exclusive lock on it (flock); a torn last line is cut off.
-  /// Throws InputError when an earlier line fails its checksum (names the line) or another process holds the lock.
+  /// Opens or creates the file; a torn last line is cut off. Whoever opens it holds its lock (lock.h).
+  /// Throws InputError when an earlier line fails its checksum (names the line).
   explicit Journal(std::filesystem::path path);
   ~Journal();
   Journal(const Journal&) = delete;

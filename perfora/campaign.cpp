@@ -31,10 +31,12 @@ constexpr Files files_of_kinds[] = {{"study", "evaluations.csv", "best.toml"},
                                     {"ensemble", "ensemble.csv", nullptr},
                                     {"calibration", "reachable.csv", "material.toml"}};
 
-std::function<std::unique_ptr<optimize::Executor>()> executor(const CampaignOptions& options, int workers,
+std::function<std::unique_ptr<optimize::Executor>()> executor(const CampaignOptions& options,
+                                                              const optimize::ExecutionKeys& of_file, int workers,
                                                               const io::Cancellation& token) {
   const int threads = thread_count(options.threads);
-  if (!options.program.empty()) return optimize::worker_processes(options.program, workers, threads);
+  if (!options.program.empty())
+    return optimize::worker_processes(options.program, workers, threads, of_file.time_limit);
   return [=, each = std::max(1, threads / workers)] {
     return optimize::make_in_process_executor(
         [each, token](const optimize::Request& request) { return optimize::evaluate_request(request, each, token); },
@@ -43,21 +45,22 @@ std::function<std::unique_ptr<optimize::Executor>()> executor(const CampaignOpti
 }
 
 optimize::WorkOptions work_options(const CampaignOptions& options, ProgressRelay& relay, const std::string& kind,
-                                   int workers) {
+                                   const optimize::ExecutionKeys& of_file, int workers) {
   optimize::WorkOptions work;
   work.folder = options.folder;
   work.resume = options.resume;
   work.force = options.force;
   work.cancellation = relay.token();
   work.progress = relay.work_callback(kind);
-  work.make_executor = executor(options, workers, relay.token());
+  work.make_executor = executor(options, of_file, workers, relay.token());
   return work;
 }
 
 void run_study(const fs::path& file, const CampaignOptions& options, ProgressRelay& relay) {
   optimize::Study study = optimize::read_study(file, options.overrides);
   const int workers = optimize::useful_workers(study, options.workers);
-  optimize::StudyRun run(std::move(study), work_options(options, relay, "study", workers));
+  const optimize::ExecutionKeys execution = study.keys.execution;
+  optimize::StudyRun run(std::move(study), work_options(options, relay, "study", execution, workers));
   run.run();
   if (run.status() != results::RunStatus::completed || !options.best_run_file) return;
   optimize::EvaluateOptions best;
@@ -69,7 +72,8 @@ void run_study(const fs::path& file, const CampaignOptions& options, ProgressRel
 
 void run_sweep(const fs::path& file, const CampaignOptions& options, ProgressRelay& relay) {
   optimize::Sweep sweep = optimize::read_sweep(file, options.overrides);
-  optimize::WorkOptions work = work_options(options, relay, "sweep", sweep.workers(options.workers));
+  optimize::WorkOptions work =
+      work_options(options, relay, "sweep", sweep.keys.execution, sweep.workers(options.workers));
   work.keep_run_files = sweep.keys.run_files;
   optimize::SweepRun(std::move(sweep), std::move(work)).run();
 }
@@ -83,8 +87,12 @@ void run_calibration(const fs::path& file, const CampaignOptions& options, Progr
   work.force = options.force;
   work.cancellation = relay.token();
   work.progress = relay.callback();
-  const int side_by_side = options.workers > 0 ? options.workers : work.threads;
-  work.make_executor = executor(options, optimize::calibration_workers(calibration, side_by_side), relay.token());
+  const optimize::ExecutionKeys& execution = calibration.keys.execution;
+  const int side_by_side = options.workers > 0     ? options.workers
+                           : execution.workers > 0 ? execution.workers
+                                                   : work.threads;
+  work.make_executor =
+      executor(options, execution, optimize::calibration_workers(calibration, side_by_side), relay.token());
   static_cast<void>(optimize::calibrate(calibration, work));
 }
 
@@ -147,6 +155,7 @@ Campaign read_campaign(const fs::path& folder) {
     if (files == std::end(files_of_kinds))
       throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration");
     const auto record = results::stored_summary(folder);
+    if (record) campaign.verdict = verdict_in(*record);
     campaign.record = record ? record->dump(2) : std::string();
     const auto status = results::status_called(record ? record->value("status", "") : "");
     campaign.status = status_of(status.value_or(results::RunStatus::stopped));

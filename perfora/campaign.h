@@ -17,8 +17,8 @@ namespace perfora {
 struct CampaignOptions {
   std::filesystem::path folder;        ///< for its journal and results; made when missing. Must be given
   std::vector<std::string> overrides;  ///< "section.key=value" of the file or of the design that it names
-  int workers = 0;                     ///< evaluations at once; 0: as the file says, or one a core
-  int threads = 0;                     ///< of all workers together; 0: one a core
+  int workers = 0;                     ///< evaluations at once; 0: as the file says, or one a processor
+  int threads = 0;                     ///< of all workers together; 0: one a processor
   bool resume = false;                 ///< go on with what the folder has; nothing finished is evaluated again
   bool force = false;                  ///< remove an earlier one of the same kind first
   /// The program perfora, whose worker processes then evaluate: a crash or lack of memory costs one evaluation. Empty:
@@ -41,6 +41,7 @@ struct Campaign {
   /// The best design of a study, the design with the parameters that a calibration found; nothing of other kinds and
   /// before there is one.
   std::optional<Design> best;
+  Verdict verdict;     ///< of a study (on fresh seeds) or an ensemble; a sweep has one a case, in `rows` and `record`
   std::string record;  ///< the JSON record of the result; empty before there is one
 };
 

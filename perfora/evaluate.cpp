@@ -20,13 +20,13 @@ Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
     work.wall_time_limit = options.wall_time;
     work.cancellation = relay.token();
     work.progress = relay.callback();
-    std::vector<std::string> warnings = optimize::prepare_evaluation(file, work, options.replicate, options.force);
+    optimize::PreparedEvaluation prepared = optimize::prepare_evaluation(file, work, options.replicate, options.force);
     const results::Evaluation found = optimize::evaluate_design(file, work, options.replicate);
     relay.rethrow();
     Evaluation made = public_evaluation(found, results::to_json(found, false));
     for (std::string& warning : optimize::validity_warnings(found, file.design().solver.loading))
-      warnings.push_back(std::move(warning));
-    made.warnings = std::move(warnings);
+      prepared.warnings.push_back(std::move(warning));
+    made.warnings = std::move(prepared.warnings);
     return made;
   });
 }

@@ -32,7 +32,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// How a design is evaluated.
 struct EvaluateOptions {
-  int threads = 0;                     ///< 0: one a core. The result does not depend on it
+  int threads = 0;                     ///< 0: one a processor. The result does not depend on it
   int replicate = 0;                   ///< 0, 1, ...: another packing and strength field of the same design
   std::filesystem::path run_file;      ///< R.h5 to write; empty: none. A run that is stopped needs it to go on
   std::filesystem::path packing_file;  ///< packing file of this design to start from; empty: the packing is made

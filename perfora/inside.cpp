@@ -121,6 +121,12 @@ Table table_of(const results::History& history) {
   return table;
 }
 
+Verdict verdict_in(const nlohmann::json& record) {
+  const auto found = record.find("verdict");
+  if (found == record.end()) return {};
+  return {found->value("outcome", ""), found->value("text", ""), found->value("note", "")};
+}
+
 Evaluation public_evaluation(const results::Evaluation& evaluation, const nlohmann::json& record) {
   Evaluation made;
   made.status = status_of(evaluation.status);
@@ -130,6 +136,7 @@ Evaluation public_evaluation(const results::Evaluation& evaluation, const nlohma
     made.measures.push_back(public_measure(measure, evaluation.pack, evaluation.summary));
   made.curve = table_of(evaluation.curve);
   made.seconds = evaluation.performance.seconds;
+  made.verdict = verdict_in(record);
   made.record = record.dump(2);
   return made;
 }

@@ -76,7 +76,7 @@ class ProgressRelay {
 
 /// Throws io::InputError when both are wanted.
 void refuse_resume_with_force(bool resume, bool force);
-/// `threads`, or one a core.
+/// `threads`, or one a processor.
 int thread_count(int threads);
 
 Status status_of(results::RunStatus status);
@@ -84,6 +84,8 @@ Status status_of(results::RunStatus status);
 std::vector<Measure> measures_of(const results::PackSummary& pack);
 /// The history's columns for people as a table.
 Table table_of(const results::History& history);
+/// The verdict that a record holds; empty texts where it holds none.
+Verdict verdict_in(const nlohmann::json& record);
 /// `record`: perfora.evaluate/1 of the evaluation.
 Evaluation public_evaluation(const results::Evaluation& evaluation, const nlohmann::json& record);
 

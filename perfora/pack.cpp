@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/files.h"
+#include "io/lock.h"
 #include "optimize/evaluate/pack_file.h"
 #include "perfora/inside.h"
 #include "results/json.h"
@@ -76,7 +77,12 @@ Packing pack(const Design& design, const PackOptions& options) {
   return at_boundary([&] {
     const optimize::DesignFile file = Inside::file(design).clone();
     static_cast<void>(file.validate(optimize::Purpose::block));
-    if (!options.file.empty()) io::check_output(options.file, options.force, false);
+    io::OutputLock lock;
+    if (!options.file.empty()) {
+      io::check_output(options.file, true, false);  // that there is a folder for the lock
+      lock = io::OutputLock(options.file);
+      io::check_output(options.file, options.force, false);
+    }
     optimize::EvaluateOptions making;
     making.threads = thread_count(options.threads);
     const auto [packed, performance, record] = optimize::pack_with_record(file, making, options.replicate);

@@ -42,7 +42,7 @@ struct Packing {
 
 /// How a packing is made.
 struct PackOptions {
-  int threads = 0;             ///< 0: one a core. The packing does not depend on it
+  int threads = 0;             ///< 0: one a processor. The packing does not depend on it
   int replicate = 0;           ///< 0, 1, ...: packings of other seeds of the same design
   std::filesystem::path file;  ///< packing file to write; empty: none
   bool force = false;          ///< replace a file that exists

@@ -55,6 +55,13 @@ struct Table {
   std::span<const std::string> texts(const std::string& name) const;
 };
 
+/// Whether the wishes of a design's [target] are met (docs/user/theory.md, "Verdict").
+struct Verdict {
+  std::string outcome;  ///< "met", "missed", "not shown", "out of reach"; empty: nothing was wished
+  std::string text;     ///< one line: the outcome and the wishes that decide it
+  std::string note;     ///< what the numbers are worth beyond their scatter
+};
+
 /// What one evaluation of a design gave.
 struct Evaluation {
   Status status = Status::completed;  ///< how it ended
@@ -63,6 +70,7 @@ struct Evaluation {
   std::vector<Measure> measures;      ///< of the packing, then of the run
   Table curve;                        ///< a row a history row (docs/user/formats.md names the columns)
   std::vector<std::string> warnings;  ///< what speaks against its numbers, a sentence each; not kept in files
+  Verdict verdict;                    ///< on this one block, which shows little; an ensemble's shows more
   double seconds = 0.0;               ///< wall time of the compression
   std::string record;                 ///< what to_json() gives
 

@@ -81,8 +81,14 @@ std::string sweep_table(const json& sweep) {
     text += fmt::format("{:>4}", io::count(number_in(one, "completed")));
     for (const std::string& name : measures) text += fmt::format("  {:>34}", case_value(one, name));
     const double failed = number_in(one, "failed");
-    text += failed > 0.0 ? fmt::format("  {} failed\n", io::count(failed)) : "\n";
+    if (failed > 0.0) text += fmt::format("  {} failed", io::count(failed));
+    const std::string outcome = text_in(object_in(one, "verdict"), "outcome");
+    if (!outcome.empty()) text += "  wishes: " + outcome;
+    text += "\n";
   }
+  for (const json& one : cases)
+    if (const std::string verdict = text_in(object_in(one, "verdict"), "text"); !verdict.empty())
+      text += fmt::format("case {}: {}\n", io::count(number_in(one, "case")), verdict);
   text += "+- half of the 95 % interval of the mean";
   return text + (compared ? "; in brackets the change to case 0\n" : "\n");
 }

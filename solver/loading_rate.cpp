@@ -134,7 +134,7 @@ std::int64_t expected_steps(const LoadingPlan& plan, const LoadingEstimate& esti
     steps += plan.adaptive && measures.peak_passed ? avalanche_factor * state.steps : state.steps;
     finish_segment(plan, state);
   }
-  return std::llround(steps);
+  return std::llround(std::min(steps, most_counted_steps));
 }
 
 }  // namespace perfora::solver

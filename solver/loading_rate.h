@@ -91,7 +91,9 @@ LoadingPlan plan_loading(const LoadingEstimate& estimate, const LoadingOptions& 
                          double longest_step);
 
 /// Steps to the end of the plan: counted for a constant rate; for an adaptive one those of a block whose
-/// stress takes the common course of perforated blocks, with the bulk's `solid_fraction`. Good to some twenty per cent.
+/// stress takes the common course of perforated blocks, with the bulk's `solid_fraction`. Good to some twenty per cent;
+/// never more than most_counted_steps.
+inline constexpr double most_counted_steps = 9e15;  ///< whole numbers below are exact in a double
 std::int64_t expected_steps(const LoadingPlan& plan, const LoadingEstimate& estimate, double solid_fraction);
 
 }  // namespace perfora::solver

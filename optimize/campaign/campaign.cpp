@@ -30,11 +30,12 @@ Campaign::Campaign() = default;
 Campaign::~Campaign() = default;
 
 void Campaign::open(WorkOptions options) {
-  prepare_work_folder(options.folder, own_files(), kind(), options.force, options.resume);
+  lock_ = claim_work_folder(options.folder, own_files(), kind(), options.force, options.resume);
   json head = identity();
   head["event"] = kind();
   head["results_version"] = results_version;
   head["command_line"] = options.command_line;
+  head[run_files_kept] = options.keep_run_files;
   const std::filesystem::path journal = options.folder / "journal.jsonl";
   const bool resume = options.resume;
   bool known = false;
@@ -51,10 +52,22 @@ void Campaign::open(WorkOptions options) {
 void Campaign::run() {
   begun_ = std::chrono::steady_clock::now();
   const bool done = queue_->run(*this);
-  end_ = done ? finished() : stopped(queue_->interrupted() ? &*queue_->interrupted() : nullptr);
+  if (!troubles().empty())
+    end_ = {results::RunStatus::stopped,
+            fmt::format("the surroundings failed, not the work: {}{}; go on with --resume", troubles().front(),
+                        troubles().size() > 1 ? fmt::format(" (and {} more)", troubles().size() - 1) : "")};
+  else
+    end_ = done ? finished() : stopped(queue_->interrupted() ? &*queue_->interrupted() : nullptr);
   queue_->note({{"event", end_.status == results::RunStatus::stopped ? "stop" : "finished"}, {"reason", end_.reason}});
   seconds_ = seconds();
   write_results();
+}
+
+std::vector<std::string> Campaign::troubles() const {
+  std::vector<std::string> texts;
+  for (const Trouble& one : queue_->skipped()) texts.push_back(trouble_text(one) + " (left out)");
+  if (queue_->trouble()) texts.push_back(trouble_text(*queue_->trouble()));
+  return texts;
 }
 
 double Campaign::seconds() const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/lock.h"
 #include "optimize/campaign/evaluation_queue.h"
 
 namespace perfora::optimize {
@@ -39,6 +40,9 @@ class Campaign {
   double seconds() const;  ///< wall time of run(), so far
   double simulated_seconds() const { return queue_->simulated_seconds(); }
   int retries() const { return queue_->retries(); }
+  /// Failures of the surroundings that kept evaluations from coming about, a sentence each: what ended the work, or
+  /// what was left out. The work is `stopped` then, and --resume tries them again.
+  std::vector<std::string> troubles() const;
 
   /// Name of the work in messages and of the event that its journal begins with: "study".
   virtual std::string kind() const = 0;
@@ -68,12 +72,13 @@ class Campaign {
   virtual void write_results() = 0;
 
  protected:
-  /// Takes the folder and its journal. Throws io::InputError when the folder holds such work and neither `resume` nor
-  /// `force` is set, when it holds other work, is in use, and what check_same() throws.
+  /// Takes the folder: its lock first, then its journal. Throws io::InputError when the folder holds such work and
+  /// neither `resume` nor `force` is set, when it holds other work, is in use, and what check_same() throws.
   void open(WorkOptions options);
   std::string time_left() const { return queue_->time_left(remaining()); }
 
  private:
+  io::OutputLock lock_;  ///< of the journal; goes last
   std::unique_ptr<EvaluationQueue> queue_;
   CampaignEnd end_{results::RunStatus::stopped, "not finished yet"};
   std::chrono::steady_clock::time_point begun_;

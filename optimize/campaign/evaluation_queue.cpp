@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 #include "io/files.h"
 #include "io/journal.h"
+#include "io/processors.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
@@ -26,6 +26,7 @@ using nlohmann::json;
 /// How often a stop is looked for while evaluations run.
 constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr const char* evaluation_name = "evaluation";
+constexpr const char* trouble_name = "trouble";
 constexpr const char* runs_folder = "runs";
 constexpr const char* histories_folder = "histories";
 
@@ -42,11 +43,23 @@ std::string key_of(const json& record, DesignTexts& designs) {
   }
 }
 
+/// What an earlier program wrote as a failed evaluation when a worker had died twice. That says nothing of the design.
+bool was_trouble(const json& record) {
+  const json& evaluation = record.at("evaluation");
+  const std::string reason = evaluation.value("reason", "");
+  return evaluation.value("status", "") == "failed" && reason.starts_with("the worker") &&
+         reason.ends_with(" times in a row");
+}
+
 }  // namespace
 
+std::string trouble_text(const Trouble& trouble) {
+  const std::string times = trouble.attempts > 1 ? fmt::format(", {} times in a row", trouble.attempts) : "";
+  return fmt::format("{}: {}{}", trouble.label, trouble.reason, times);
+}
+
 int workers_for(int asked, int of_file, std::int64_t together) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : cores;
+  const int wanted = asked > 0 ? asked : of_file > 0 ? of_file : io::default_threads();
   return static_cast<int>(std::clamp<std::int64_t>(together, 1, wanted));
 }
 
@@ -64,10 +77,14 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
     results::read_from(options_.folder / "journal.jsonl", ++line,
                        "restore the file from a copy, or delete this line and all after it to go on from there", [&] {
                          const json record = json::parse(text);
-                         if (record.at("event") == evaluation_name)
+                         const std::string event = record.at("event");
+                         if (event == evaluation_name && !was_trouble(record))
                            take_evaluation(key_of(record, designs), record);
-                         else
-                           seen(record, answers_);
+                         if (event == evaluation_name || event == trouble_name) return;
+                         // One whose first event does not say it is of an earlier program.
+                         if (record.contains("results_version") && record.value(run_files_kept, true))
+                           only_own_runs_ = false;
+                         seen(record, answers_);
                        });
 }
 
@@ -123,6 +140,52 @@ void EvaluationQueue::record(Campaign& campaign, const Asked& asked, Answer answ
   answers_.add(answer.key, std::move(answer.evaluation));
 }
 
+bool EvaluationQueue::go_on_after(const Answer& answer, Executor& executor) {
+  const Asked& asked = in_flight_.at(answer.key);
+  const ExecutionKeys& rules = options_.execution;
+  const Trouble trouble{asked.label, answer.trouble, ++attempts_[answer.key]};
+  note({{"event", trouble_name},
+        {"key", answer.key},
+        {"candidate", asked.label},
+        {"reason", trouble.reason},
+        {"attempts", trouble.attempts}});
+  if (rules.on_trouble != OnTrouble::stop && trouble.attempts < rules.attempts) {
+    io::log_warning(fmt::format("{}; tried again", trouble_text(trouble)));
+    submit(executor, asked);
+    return true;
+  }
+  if (rules.on_trouble != OnTrouble::skip) {
+    trouble_ = trouble;
+    return false;
+  }
+  io::log_warning(fmt::format("{}; left out", trouble_text(trouble)));
+  skipped_.push_back(trouble);
+  skipped_keys_.insert(answer.key);
+  in_flight_.erase(answer.key);
+  return true;
+}
+
+std::vector<Asked> EvaluationQueue::wanted_by(Campaign& campaign) const {
+  std::vector<Asked> wanted = campaign.pending(answers_);
+  std::erase_if(wanted, [this](const Asked& asked) { return skipped_keys_.contains(asked.key); });
+  return wanted;
+}
+
+void EvaluationQueue::clean_folder() const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path runs = options_.folder / runs_folder, histories = options_.folder / histories_folder;
+  std::vector<fs::path> left;  // by a kill after the journal's line, or of what is no longer asked
+  for (const auto& entry : fs::directory_iterator(runs, ignored))
+    if (only_own_runs_ || entry.path().extension() == ".part") left.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(histories, ignored)) {
+    const auto [first, last] = answers_.of(entry.path().stem().string());
+    if (first == last) left.push_back(entry.path());
+  }
+  for (const fs::path& path : left) fs::remove_all(path, ignored);
+  fs::remove(histories, ignored);  // Where nothing is left in it.
+}
+
 std::string EvaluationQueue::time_left(std::int64_t remaining) const {
   if (timed_ == 0 || remaining <= 0) return {};
   const double mean = simulated_seconds_ / timed_;
@@ -155,8 +218,9 @@ void EvaluationQueue::drop_run_file(const Request& request) const {
 
 bool EvaluationQueue::run(Campaign& campaign) {
   using Clock = std::chrono::steady_clock;
+  const io::Cancellation::Attention attention = options_.cancellation.attend();
   std::unique_ptr<Executor> executor;
-  std::vector<Asked> wanted = campaign.pending(answers_);
+  std::vector<Asked> wanted = wanted_by(campaign);
   bool stopped = options_.cancellation.requested();
   Clock::time_point written = Clock::now();
   while (!wanted.empty() && !stopped) {
@@ -167,19 +231,24 @@ bool EvaluationQueue::run(Campaign& campaign) {
     std::optional<Answer> answer = executor->next(look_interval);
     if (options_.progress) options_.progress({static_cast<std::int64_t>(answers_.size()), campaign.remaining()});
     stopped = options_.cancellation.requested();
-    if (!answer || answer->evaluation.status == results::RunStatus::stopped) {
+    if (!answer || (answer->trouble.empty() && answer->evaluation.status == results::RunStatus::stopped)) {
       if (answer) interrupted_ = std::move(answer->evaluation);
       stopped = stopped || interrupted_;
       continue;
     }
-    if (stopped && answer->evaluation.status == results::RunStatus::failed)
-      continue;  // It may have died of the same signal.
+    if (!answer->trouble.empty()) {
+      if (stopped) continue;  // It may have died of the same signal.
+      stopped = !go_on_after(*answer, *executor);
+      wanted = wanted_by(campaign);
+      continue;
+    }
     const Asked asked = in_flight_.at(answer->key);
+    answer->attempts = attempts_[answer->key] + 1;
     record(campaign, asked, std::move(*answer));
     const Evaluation* evaluation = answer_for(asked.request, asked.key, answers_);
     if (!evaluation) throw std::logic_error("an evaluation does not answer its request: " + asked.label);
     if (!asked.run_file && !options_.keep_run_files) drop_run_file(asked.request);
-    wanted = campaign.pending(answers_);
+    wanted = wanted_by(campaign);
     const std::string text = campaign.on_answer(asked, *evaluation);
     if (!text.empty()) io::log_info(text + time_left(campaign.remaining()));
     in_flight_.erase(asked.key);
@@ -188,6 +257,7 @@ bool EvaluationQueue::run(Campaign& campaign) {
     written = Clock::now();
   }
   if (executor) executor->stop();
+  if (!stopped && skipped_.empty()) clean_folder();
   std::error_code ignored;
   std::filesystem::remove(options_.folder / runs_folder, ignored);  // Where nothing is left in it.
   return !stopped;

@@ -11,10 +11,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "io/cancellation.h"
+#include "optimize/campaign/execution.h"
 #include "optimize/campaign/executor.h"
 #include "optimize/evaluate/answers.h"
 
@@ -23,6 +25,9 @@ class Journal;
 }
 
 namespace perfora::optimize {
+
+/// Says in the events that journals begin a session with whether run files of finished simulations stay.
+inline constexpr const char* run_files_kept = "run_files_kept";
 
 /// One question to an executor.
 struct Asked {
@@ -51,6 +56,8 @@ struct WorkOptions {
   /// Run files of finished simulations stay in DIR/runs, with a few frames; otherwise only those that were stopped or
   /// killed, which are resumed.
   bool keep_run_files = false;
+  /// What a failure of the surroundings leads to.
+  ExecutionKeys execution;
   /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
   /// what runs only if their evaluation was given a token, too.
   io::Cancellation cancellation;
@@ -62,12 +69,22 @@ struct WorkOptions {
 
 class Campaign;
 
+/// An evaluation that the surroundings did not let come about.
+struct Trouble {
+  std::string label;  ///< of what was asked
+  std::string reason;
+  int attempts = 1;
+};
+/// "diameter 9 mm: the worker was ended by signal 9 (Killed), 3 times in a row"
+std::string trouble_text(const Trouble& trouble);
+
 /// The journal of a folder as answers, and the loop that adds to it.
 class EvaluationQueue {
  public:
-  /// Opens (or begins) the journal of options.folder. Events that are no evaluations go to `seen` in their order, with
-  /// the answers so far, so that what does not belong here can be refused before an evaluation is read. Throws
-  /// io::InputError when the journal is damaged or in use.
+  /// Opens (or begins) the journal of options.folder, whose lock the caller holds. Events that are no evaluations go to
+  /// `seen` in their order, with the answers so far, so that what does not belong here can be refused before an
+  /// evaluation is read. Throws io::InputError when the journal is damaged. Failures of the surroundings that an
+  /// earlier program took for evaluations are left out.
   EvaluationQueue(WorkOptions options, const std::function<void(const nlohmann::json&, Answers&)>& seen);
   ~EvaluationQueue();
 
@@ -79,8 +96,14 @@ class EvaluationQueue {
 
   /// Has everything evaluated that `campaign` (asked again after every answer) names, until it names nothing; questions
   /// that are under way stay in its list until they are answered. It hears of an answer after that is in the journal.
-  /// True: done; false: stopped, what is finished is kept.
+  /// True: done; false: stopped, what is finished is kept. A failure of the surroundings is noted in the journal, as no
+  /// evaluation, and the request is asked again or not as options.execution says.
   bool run(Campaign& campaign);
+
+  /// What ended run(), where the surroundings did.
+  const std::optional<Trouble>& trouble() const { return trouble_; }
+  /// What was left out (OnTrouble::skip), in order.
+  const std::vector<Trouble>& skipped() const { return skipped_; }
 
   /// The evaluation during which work was stopped, where it said so itself.
   const std::optional<Evaluation>& interrupted() const { return interrupted_; }
@@ -91,7 +114,7 @@ class EvaluationQueue {
   int workers() const { return workers_; }  ///< of the last run(); 1 before
   std::size_t in_flight() const { return in_flight_.size(); }
   double simulated_seconds() const { return simulated_seconds_; }  ///< of all evaluations in the journal
-  int retries() const { return retries_; }                         ///< evaluations that were asked twice
+  int retries() const { return retries_; }  ///< attempts beyond the first of all evaluations in the journal
   /// DIR/histories/KEY.h5, relative to the folder: the full history, from which the evaluation can be measured anew.
   static std::filesystem::path history_file(const std::string& key);
 
@@ -101,6 +124,10 @@ class EvaluationQueue {
  private:
   void take_evaluation(const std::string& key, const nlohmann::json& record);
   void record(Campaign& campaign, const Asked& asked, Answer answer);
+  /// True: it is asked again or left out; false: the work stops.
+  bool go_on_after(const Answer& answer, Executor& executor);
+  std::vector<Asked> wanted_by(Campaign& campaign) const;
+  void clean_folder() const;
   void keep_history(const std::string& key, const Evaluation& evaluation) const;
   void submit(Executor& executor, const Asked& asked) const;
   void drop_run_file(const Request& request) const;
@@ -110,6 +137,11 @@ class EvaluationQueue {
   Answers answers_;
   std::optional<Evaluation> interrupted_;
   std::map<std::string, Asked> in_flight_;
+  std::map<std::string, int> attempts_;  ///< that failed, by key
+  std::optional<Trouble> trouble_;
+  std::vector<Trouble> skipped_;
+  std::set<std::string> skipped_keys_;
+  bool only_own_runs_ = true;  ///< no session of this journal has kept run files of finished simulations
   double simulated_seconds_ = 0.0;
   int timed_ = 0;  ///< evaluations that make these up
   int retries_ = 0;
@@ -119,8 +151,8 @@ class EvaluationQueue {
 /// The event that an answer is in a journal.
 nlohmann::json evaluation_event(const Asked& asked, const Answer& answer);
 
-/// How many evaluations run at once: `asked`, or what the file says, or all cores (0: not given), but not more than can
-/// be under way together.
+/// How many evaluations run at once: `asked`, or what the file says, or one a processor (io::default_threads; 0: not
+/// given), but not more than can be under way together.
 int workers_for(int asked, int of_file, std::int64_t together);
 
 }  // namespace perfora::optimize

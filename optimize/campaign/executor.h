@@ -1,5 +1,5 @@
 // What is here: what carries requests to evaluations: in this process, or in child processes whose crash costs one
-// evaluation. What is not: which requests (campaign.h), the journal (evaluation_queue.h).
+// attempt. What is not: which requests (campaign.h), the journal (evaluation_queue.h).
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,15 @@
 
 namespace perfora::optimize {
 
-/// A finished evaluation.
+/// What came of an attempt: an evaluation, or a failure of the surroundings.
 struct Answer {
   std::string key;
   Evaluation evaluation;
-  int attempts = 1;      ///< 2: the first one crashed
-  double seconds = 0.0;  ///< wall time of the last attempt
+  double seconds = 0.0;  ///< wall time of the attempt
+  /// What kept the surroundings from evaluating (the worker was killed, the disk is full, ...): says nothing of the
+  /// design, `evaluation` means nothing, and the same request may be asked again. Empty: there is an evaluation.
+  std::string trouble = {};
+  int attempts = 1;  ///< of this request in this session, this one included; counted by whoever asks
 };
 
 /// Used from one thread, which must outlive it (children die with the thread that made them).
@@ -35,8 +38,8 @@ class Executor {
   virtual void stop() = 0;
 };
 
-/// One evaluation. May throw: an exception becomes an evaluation with status `failed`. Must be thread-safe when there
-/// is more than one worker.
+/// One evaluation. May throw: io::InputError becomes an evaluation with status `failed`, anything else a trouble. Must
+/// be thread-safe when there is more than one worker.
 using Evaluate = std::function<Evaluation(const Request&)>;
 
 /// Threads of this process. A crash is the end of all of it; for tests, small jobs and callers with an evaluation of
@@ -47,19 +50,25 @@ std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int worker
 /// stopped by its caller.
 std::unique_ptr<Executor> make_calling_executor(Evaluate evaluate);
 
+/// Exit code of a worker whose program could not be started, as shells have it.
+inline constexpr int cannot_start = 127;
+
 struct ChildOptions {
-  std::vector<std::string> command;  ///< program and arguments of a worker: one Request a line on its input, one
-                                     ///< Evaluation a line on its output
+  /// Program and arguments of a worker. It takes a Request a line on its input. On its output it gives a line for each:
+  /// an Evaluation, or {"trouble": TEXT}; before it, while it computes, {"alive": true} every second.
+  std::vector<std::string> command;
   int workers = 1;
-  int attempts = 2;  ///< a worker that dies, or answers something else, is replaced and asked again this often in all
-  double time_limit = 0.0;  ///< s of wall time an evaluation may take before its worker is killed; 0: none
+  int threads = 1;                                ///< of each
+  std::chrono::duration<double> time_limit{0.0};  ///< wall time an evaluation may take; 0: from its estimate
+  std::chrono::milliseconds silence{5000};  ///< after which a worker is looked at; one that is stopped is replaced
 };
 
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.
 std::unique_ptr<Executor> make_child_executor(ChildOptions options);
 
 /// Makes an executor of `workers` child processes of `program`, which is perfora, that share `threads` threads.
+/// `time_limit`: s, as in ChildOptions.
 std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
-                                                            int threads);
+                                                            int threads, double time_limit = 0.0);
 
 }  // namespace perfora::optimize

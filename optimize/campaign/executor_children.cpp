@@ -1,76 +1,65 @@
-// What is here: evaluations in child processes, one line of JSON each way. What is not: the loop of such a child
-// (app/worker.cpp).
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/prctl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// What is here: evaluations in child processes, one line of JSON each way; those that died, hang or were stopped
+// replaced. What is not: the loop of such a child (app/worker.cpp), whether a request is asked again
+// (evaluation_queue.cpp).
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <deque>
+#include <memory>
 #include <set>
-#include <stdexcept>
-#include <thread>
 
+#include "io/error.h"
 #include "io/progress.h"
 #include "optimize/campaign/executor.h"
+#include "optimize/campaign/time_limit.h"
+#include "optimize/campaign/worker_process.h"
 
 namespace perfora::optimize {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
 
 /// Time a child has to end after SIGTERM before it is killed.
 constexpr auto grace = std::chrono::milliseconds(2000);
-/// An answer longer than this is not one: a full curve takes some 100 kB.
-constexpr std::size_t longest_answer = std::size_t{64} << 20;
-/// Exit code of a child whose program could not be started, as shells have it.
-constexpr int cannot_start = 127;
+/// How often time limits and silent children are looked at.
+constexpr auto look_again = std::chrono::milliseconds(100);
+/// A child that was found stopped so often in a row is replaced: one may be seen so while everything wakes up.
+constexpr int looks_until_replaced = 5;
+/// A longer gap between two looks means that this process did not run: silence then tells nothing of the children.
+constexpr auto own_gap = std::chrono::milliseconds(2000);
 
 struct Job {
   std::string key;
   Request request;
-  int attempts = 0;
 };
 
 struct Child {
-  pid_t pid = -1;
-  int socket = -1;
-  std::string received;
+  std::unique_ptr<WorkerProcess> process;  ///< nullptr: not started
   std::optional<Job> job;
-  Clock::time_point since;
+  Clock::time_point since, last_sign;
+  double time_limit = 0.0;  ///< s, of the job; 0: none
+  int seen_stopped = 0;
   std::set<int> replicates;  ///< whose packings it has made already
 };
 
-std::string signal_name(int signal) {
-  const char* text = strsignal(signal);
-  return fmt::format("signal {} ({})", signal, text ? text : "?");
-}
-
-std::string death_text(int status) {
-  if (WIFSIGNALED(status)) return "the worker was ended by " + signal_name(WTERMSIG(status));
-  return fmt::format("the worker ended with exit code {}", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
-}
-
-/// In the child, between fork and exec: only async-signal-safe calls.
-[[noreturn]] void become_worker(char* const* arguments, int socket, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(cannot_start);  // The parent died before the line above.
-  ::setpgid(0, 0);                                   // Ctrl-C in a terminal is the parent's business.
-  ::dup2(socket, STDIN_FILENO);
-  ::dup2(socket, STDOUT_FILENO);
-  ::execvp(arguments[0], arguments);
-  ::_exit(cannot_start);
+std::string death_text(std::optional<int> status) {
+  if (!status) return "the worker cannot be ended";
+  if (WIFSIGNALED(*status)) {
+    const char* text = strsignal(WTERMSIG(*status));
+    return fmt::format("the worker was ended by signal {} ({})", WTERMSIG(*status), text ? text : "?");
+  }
+  return fmt::format("the worker ended with exit code {}", WEXITSTATUS(*status));
 }
 
 class ChildExecutor final : public Executor {
  public:
-  explicit ChildExecutor(ChildOptions options) : options_(std::move(options)) {
+  explicit ChildExecutor(ChildOptions options)
+      : options_(std::move(options)), limits_(options_.threads), last_look_(Clock::now()) {
     children_.resize(static_cast<std::size_t>(std::max(1, options_.workers)));
   }
 
@@ -78,7 +67,7 @@ class ChildExecutor final : public Executor {
 
   int workers() const override { return static_cast<int>(children_.size()); }
 
-  void submit(const std::string& key, const Request& request) override { queue_.push_back({key, request, 0}); }
+  void submit(const std::string& key, const Request& request) override { queue_.push_back({key, request}); }
 
   std::optional<Answer> next(std::chrono::milliseconds timeout) override {
     const auto end = Clock::now() + timeout;
@@ -89,8 +78,9 @@ class ChildExecutor final : public Executor {
         answers_.pop_front();
         return answer;
       }
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-      if (!receive(std::max<std::int64_t>(left, 0)) || (left <= 0 && answers_.empty())) return std::nullopt;
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+      if (!receive(std::max(left, std::chrono::milliseconds(0))) || (left.count() <= 0 && answers_.empty()))
+        return std::nullopt;
     }
     return std::nullopt;
   }
@@ -99,50 +89,17 @@ class ChildExecutor final : public Executor {
     stopped_ = true;
     queue_.clear();
     for (const Child& child : children_)
-      if (child.pid > 0) ::kill(child.pid, SIGTERM);
+      if (child.process) child.process->ask_to_end(child.job.has_value());
     const auto end = Clock::now() + grace;
     for (Child& child : children_) {
-      while (child.pid > 0 && Clock::now() < end) {
-        if (::waitpid(child.pid, nullptr, WNOHANG) == child.pid)
-          child.pid = -1;
-        else
-          std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      }
-      if (child.pid > 0) reap(child);
-      if (child.socket >= 0) ::close(child.socket);
-      child.socket = -1;
+      if (!child.process) continue;
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+      if (!child.process->is_stopped()) child.process->wait(std::max(left, std::chrono::milliseconds(0)));
+      child = Child{};
     }
   }
 
  private:
-  void start(Child& child) {
-    int pair[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
-      throw std::runtime_error(fmt::format("no socket for a worker: {}", std::strerror(errno)));
-    std::vector<char*> arguments;
-    for (std::string& text : options_.command) arguments.push_back(text.data());
-    arguments.push_back(nullptr);
-    const pid_t parent = ::getpid();
-    const pid_t pid = ::fork();
-    if (pid == 0) become_worker(arguments.data(), pair[1], parent);
-    ::close(pair[1]);
-    if (pid < 0) {
-      ::close(pair[0]);
-      throw std::runtime_error(fmt::format("a worker could not be started: {}", std::strerror(errno)));
-    }
-    child = Child{pid, pair[0], {}, std::nullopt, {}, {}};
-  }
-
-  /// Kills and waits; returns the exit status.
-  static int reap(Child& child) {
-    int status = 0;
-    ::kill(child.pid, SIGKILL);
-    while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    child.pid = -1;
-    return status;
-  }
-
   /// An idle child for a job: one that knows its replicate where there is one.
   Child* idle(int replicate) {
     Child* found = nullptr;
@@ -160,119 +117,112 @@ class ChildExecutor final : public Executor {
       if (!child) return;
       Job job = std::move(queue_.front());
       queue_.pop_front();
-      if (child->pid < 0) start(*child);
-      ++job.attempts;
+      if (!child->process) child->process = std::make_unique<WorkerProcess>(options_.command);
       child->replicates.insert(job.request.replicate);
+      child->time_limit = options_.time_limit.count() > 0.0 ? options_.time_limit.count() : limits_.of(job.request);
       child->job = std::move(job);
-      child->since = Clock::now();
-      if (!send(*child, to_json(child->job->request).dump() + "\n")) lose(*child, "");
+      child->since = child->last_sign = Clock::now();
+      child->seen_stopped = 0;
+      if (!child->process->send(to_json(child->job->request).dump() + "\n")) lose(*child, "");
     }
   }
 
-  static bool send(const Child& child, const std::string& line) {
-    std::size_t sent = 0;
-    while (sent < line.size()) {
-      const ssize_t n = ::send(child.socket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      sent += static_cast<std::size_t>(n);
-    }
-    return true;
-  }
+  double seconds_of(const Child& child) const { return Seconds(Clock::now() - child.since).count(); }
 
-  /// A child is of no use any more: its job is asked again or fails. `why` empty: what its exit status says.
-  void lose(Child& child, const std::string& why) {
-    // A child that closed its socket is about to end by itself; its own status says more than our SIGKILL.
-    int status = 0;
-    bool ended = false;
-    for (int k = 0; why.empty() && k < 100 && !ended; ++k) {
-      ended = ::waitpid(child.pid, &status, WNOHANG) == child.pid;
-      if (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  /// A child is of no use any more. `why` empty: what its exit status says.
+  void lose(Child& child, std::string why) {
+    if (why.empty()) {
+      // A child that closed its socket is about to end by itself; its own status says more than our SIGKILL.
+      std::optional<int> status = child.process->wait(std::chrono::milliseconds(200));
+      if (status && WIFEXITED(*status) && WEXITSTATUS(*status) == cannot_start)
+        throw io::SurroundingsError(fmt::format("the worker program {} could not be started; check that it is there",
+                                                options_.command.front()));
+      why = status ? death_text(status) : "the worker closed its output";
     }
-    if (ended)
-      child.pid = -1;
-    else
-      status = reap(child);
-    if (ended && WIFEXITED(status) && WEXITSTATUS(status) == cannot_start)
-      throw std::runtime_error(fmt::format("the worker program {} could not be started", options_.command.front()));
-    ::close(child.socket);
-    std::optional<Job> job = std::move(child.job);
-    const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
+    const std::optional<Job> job = std::move(child.job);
+    const double seconds = seconds_of(child);
     child = Child{};
-    if (!job) return;
-    if (job->attempts < options_.attempts) {
-      queue_.push_front(std::move(*job));
-      return;
-    }
-    const std::string reason =
-        fmt::format("{}, {} times in a row", why.empty() ? death_text(status) : why, job->attempts);
-    answers_.push_back({job->key, failed_evaluation(reason, job->request.replicate), job->attempts, seconds});
+    if (job) answers_.push_back({job->key, {}, seconds, std::move(why)});
   }
 
-  /// Waits for bytes; false after a signal or when nothing runs.
-  bool receive(std::int64_t milliseconds) {
+  /// Waits for bytes; false after a signal.
+  bool receive(std::chrono::milliseconds longest) {
     std::vector<pollfd> polls;
     std::vector<Child*> owners;
     for (Child& child : children_)
-      if (child.pid > 0) {
-        polls.push_back({child.socket, POLLIN, 0});
+      if (child.process) {
+        polls.push_back({child.process->socket(), POLLIN, 0});
         owners.push_back(&child);
       }
-    const int ready = ::poll(polls.data(), polls.size(), static_cast<int>(limited(milliseconds)));
+    const int ready = ::poll(polls.data(), polls.size(), static_cast<int>(std::min(longest, look_again).count()));
     if (ready < 0) return false;
+    const auto now = Clock::now();
+    if (now - last_look_ > own_gap)
+      for (Child* child : owners) child->last_sign = now;
+    last_look_ = now;
     for (std::size_t k = 0; k < polls.size(); ++k)
-      if (polls[k].revents != 0) take(*owners[k]);
-    for (Child* child : owners) check_time(*child);
+      if (polls[k].revents != 0)
+        take(*owners[k]);
+      else
+        look_at(*owners[k]);
     return true;
   }
 
-  std::int64_t limited(std::int64_t milliseconds) const {
-    constexpr std::int64_t look_again = 100;  // For the time limit.
-    return options_.time_limit > 0.0 ? std::min(milliseconds, look_again) : milliseconds;
-  }
-
-  void check_time(Child& child) {
-    if (options_.time_limit <= 0.0 || !child.job) return;
-    const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
-    if (seconds > options_.time_limit)
-      lose(child, fmt::format("the worker took more than {:g} s", options_.time_limit));
+  /// A child from which nothing has come.
+  void look_at(Child& child) {
+    if (!child.job) return;
+    if (child.time_limit > 0.0 && seconds_of(child) > child.time_limit)
+      return lose(child, fmt::format("the worker took more than {:.3g} s (time_limit)", child.time_limit));
+    if (Clock::now() - child.last_sign < options_.silence) return;
+    // A busy machine lets a worker wait, too; only one that is stopped will never answer.
+    child.seen_stopped = child.process->is_stopped() ? child.seen_stopped + 1 : 0;
+    if (child.seen_stopped >= looks_until_replaced)
+      lose(child, fmt::format("the worker was stopped and gave no sign of life for {:.3g} s",
+                              Seconds(Clock::now() - child.last_sign).count()));
   }
 
   void take(Child& child) {
-    char buffer[65536];
-    const ssize_t n = ::recv(child.socket, buffer, sizeof buffer, MSG_DONTWAIT);
-    if (n < 0 && (errno == EINTR || errno == EAGAIN)) return;
-    if (n <= 0) return lose(child, "");
-    child.received.append(buffer, static_cast<std::size_t>(n));
-    const auto line_end = child.received.find('\n');
-    if (line_end == std::string::npos) {
-      if (child.received.size() > longest_answer) lose(child, "the worker's answer has no end");
-      return;
+    const bool open = child.process->receive();
+    child.last_sign = Clock::now();
+    while (child.process) {
+      const std::optional<std::string> line = child.process->line();
+      if (!line) break;
+      accept(child, *line);
     }
-    const std::string line = child.received.substr(0, line_end);
-    child.received.erase(0, line_end + 1);
-    accept(child, line);
+    if (!child.process) return;
+    if (!open) return lose(child, "");
+    if (child.process->unread() > WorkerProcess::longest_line) return lose(child, "the worker's answer has no end");
+    if (child.job && child.time_limit > 0.0 && seconds_of(child) > child.time_limit) look_at(child);
   }
 
   void accept(Child& child, const std::string& line) {
-    if (!child.job) return lose(child, "the worker sent a line although no request was open");
-    Evaluation evaluation;
+    nlohmann::json record = nlohmann::json::parse(line, nullptr, false);
+    if (record.is_object() && record.contains("alive")) return;
+    if (!child.job) return lose(child, "it was not asked");
+    Answer answer{child.job->key, {}, seconds_of(child)};
     try {
-      evaluation = results::evaluation_from_json(nlohmann::json::parse(line));
+      if (record.is_discarded()) throw std::runtime_error("no JSON");
+      if (record.contains("trouble"))
+        answer.trouble = record.at("trouble").get<std::string>();
+      else
+        answer.evaluation = results::evaluation_from_json(record);
     } catch (const std::exception& error) {
       return lose(child, fmt::format("the worker's answer cannot be read ({})", error.what()));
     }
     // No request led to that: treated as a kill.
-    if (evaluation.status == results::RunStatus::stopped) return lose(child, "the worker was told to stop");
-    const double seconds = std::chrono::duration<double>(Clock::now() - child.since).count();
-    answers_.push_back({child.job->key, std::move(evaluation), child.job->attempts, seconds});
+    if (answer.trouble.empty() && answer.evaluation.status == results::RunStatus::stopped)
+      return lose(child, "the worker was told to stop");
+    if (answer.trouble.empty()) limits_.learn(child.job->request, answer.seconds);
+    answers_.push_back(std::move(answer));
     child.job.reset();
   }
 
   ChildOptions options_;
+  TimeLimits limits_;
   std::vector<Child> children_;
   std::deque<Job> queue_;
   std::deque<Answer> answers_;
+  Clock::time_point last_look_;
   bool stopped_ = false;
 };
 
@@ -283,12 +233,14 @@ std::unique_ptr<Executor> make_child_executor(ChildOptions options) {
 }
 
 std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
-                                                            int threads) {
+                                                            int threads, double time_limit) {
   const int each = std::max(1, threads / workers);
-  return [program, workers, each] {
+  return [program, workers, each, time_limit] {
     ChildOptions children;
     children.command = {program.string(), "worker", "--quiet", "--threads", std::to_string(each)};
     children.workers = workers;
+    children.threads = each;
+    children.time_limit = Seconds(time_limit);
     io::log_info(
         fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", each, each == 1 ? "" : "s"));
     return make_child_executor(std::move(children));

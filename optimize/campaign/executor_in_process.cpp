@@ -3,8 +3,10 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <thread>
 
+#include "io/error.h"
 #include "optimize/campaign/executor.h"
 
 namespace perfora::optimize {
@@ -14,12 +16,21 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Evaluation guarded(const Evaluate& evaluate, const Request& request) {
+Answer guarded(const Evaluate& evaluate, const std::string& key, const Request& request) {
+  Answer answer;
+  answer.key = key;
+  const auto start = std::chrono::steady_clock::now();
   try {
-    return evaluate(request);
+    answer.evaluation = evaluate(request);
+  } catch (const io::InputError& error) {
+    answer.evaluation = failed_evaluation(error.what(), request.replicate);
+  } catch (const std::bad_alloc&) {
+    answer.trouble = "out of memory";
   } catch (const std::exception& error) {
-    return failed_evaluation(error.what(), request.replicate);
+    answer.trouble = error.what();
   }
+  answer.seconds = seconds_since(start);
+  return answer;
 }
 
 class InProcessExecutor final : public Executor {
@@ -72,9 +83,7 @@ class InProcessExecutor final : public Executor {
       Job job = std::move(queue_.front());
       queue_.pop_front();
       lock.unlock();
-      const auto start = std::chrono::steady_clock::now();
-      Answer answer{job.key, guarded(evaluate_, job.request), 1, 0.0};
-      answer.seconds = seconds_since(start);
+      Answer answer = guarded(evaluate_, job.key, job.request);
       lock.lock();
       answers_.push_back(std::move(answer));
       changed_.notify_all();
@@ -100,7 +109,7 @@ class CallingExecutor final : public Executor {
     const auto [key, request] = std::move(queue_.front());
     queue_.pop_front();
     const auto start = std::chrono::steady_clock::now();
-    Answer answer{key, evaluate_(request), 1, 0.0};
+    Answer answer{key, evaluate_(request)};
     answer.seconds = seconds_since(start);
     return answer;
   }

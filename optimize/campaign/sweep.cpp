@@ -33,7 +33,7 @@ void describe(io::Schema& schema, SweepKeys& keys) {
   section.boolean("base", keys.base, "The design itself is case 0, and all others are compared to it");
   section.boolean("run_files", keys.run_files,
                   "Keep the run file of every simulation in DIR/runs (runs.csv says which), with a few frames to draw");
-  section.integer("workers", keys.workers, Range::non_negative(), "Simulations at once; 0: one a core");
+  describe(section, keys.execution);
   section.text("measures", keys.measures, "Up to four results to draw, by their names in cases.csv");
 }
 
@@ -303,7 +303,7 @@ struct Reader {
 }  // namespace
 
 int Sweep::workers(int asked) const {
-  return workers_for(asked, keys.workers, runs());
+  return workers_for(asked, keys.execution.workers, runs());
 }
 
 std::int64_t Sweep::runs() const {

@@ -69,9 +69,11 @@ CaseResult case_result(const SweepRun& run, const SweepCase& one) {
   const bool compared = run.sweep().keys.base && one.number != 0;
   const std::size_t count = sweep_measures().size();
   std::vector<std::vector<double>> values(count), changes(count);  // by measure
+  std::vector<const Evaluation*> judged;
   for (int replicate = 0; replicate < run.sweep().keys.replicates; ++replicate) {
     const Evaluation* evaluation = run.completed(one, replicate);
     result.failed += !evaluation && run.known(one, replicate);
+    if (const Evaluation* known = run.known(one, replicate)) judged.push_back(known);
     if (!evaluation) continue;
     ++result.completed;
     const std::vector<double> reached = measures_of(*evaluation);
@@ -81,6 +83,8 @@ CaseResult case_result(const SweepRun& run, const SweepCase& one) {
     const std::vector<double> of_base = measures_of(*base);
     for (std::size_t k = 0; k < count; ++k) changes[k].push_back(reached[k] - of_base[k]);
   }
+  const results::Target& target = one.design->target;
+  if (!judged.empty() && !results::wishes(target).empty()) result.verdict = results::verdict_on(target, judged);
   for (std::size_t k = 0; k < count; ++k) {
     result.statistics.push_back(results::statistic_of(sweep_measures()[k], values[k]));
     if (compared) result.changes.push_back(results::statistic_of(sweep_measures()[k], changes[k]));
@@ -102,29 +106,32 @@ json to_json(const SweepRun& run) {
                    {"completed", result.completed},
                    {"failed", result.failed},
                    {"statistics", statistics_json(result.statistics)}};
+    if (result.verdict) record["verdict"] = results::to_json(*result.verdict);
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }
-  return {{"schema", results::sweep_schema},
-          {"status", results::status_name(run.status())},
-          {"reason", run.reason()},
-          {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
-          {"results_version", results_version},
-          {"replicates", run.sweep().keys.replicates},
-          {"runs", run.sweep().runs()},
-          {"left_out", run.sweep().left_out},
-          {"measures", run.sweep().measures},
-          {"plateau_window",
-           {run.sweep().start->design().measures.plateau_start,
-            run.sweep().start->design().measures.plateau_end}},
-          {"cases", cases},
-          {"performance",
-           {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
+  json record = {
+      {"schema", results::sweep_schema},
+      {"status", results::status_name(run.status())},
+      {"reason", run.reason()},
+      {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
+      {"results_version", results_version},
+      {"replicates", run.sweep().keys.replicates},
+      {"runs", run.sweep().runs()},
+      {"left_out", run.sweep().left_out},
+      {"measures", run.sweep().measures},
+      {"plateau_window",
+       {run.sweep().start->design().measures.plateau_start, run.sweep().start->design().measures.plateau_end}},
+      {"cases", cases},
+      {"performance",
+       {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
+  if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
+  return record;
 }
 
 std::string cases_csv(const SweepRun& run) {
-  std::string text = head_columns(run) + ",completed,failed,problem";
-  const bool compared = run.sweep().keys.base;
+  const bool compared = run.sweep().keys.base, wished = !results::wishes(run.sweep().start->design().target).empty();
+  std::string text = head_columns(run) + ",completed,failed,problem" + (wished ? ",outcome" : "");
   for (const std::string& name : sweep_measures()) {
     text += fmt::format(",{0},{0}_std,{0}_ci95", name);
     if (compared) text += fmt::format(",{0}_change,{0}_change_ci95", name);
@@ -134,6 +141,7 @@ std::string cases_csv(const SweepRun& run) {
     const CaseResult result = case_result(run, one);
     text += case_columns(run, one) + fmt::format(",{},{},{}", result.completed, result.failed,
                                                  one.problem.empty() ? "" : io::csv_quoted(one.problem));
+    if (wished) text += std::string(",") + (result.verdict ? results::outcome_name(result.verdict->outcome) : "");
     for (std::size_t k = 0; k < result.statistics.size(); ++k) {
       const results::Statistic& s = result.statistics[k];
       text += field(s.mean) + field(s.standard_deviation) + field(s.confidence_95);

@@ -20,6 +20,7 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
       runs.push_back({{request.key(), request, one.label}, request.full_key()});
     }
   }
+  options.execution = sweep_.keys.execution;
   open(std::move(options));
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/litter.h"
 #include "results/campaign_folder.h"
 
 namespace perfora::optimize {
@@ -39,37 +40,42 @@ std::vector<fs::path> own_paths(const fs::path& folder, const std::vector<std::s
 
 }  // namespace
 
-void prepare_work_folder(const fs::path& folder, const std::vector<std::string>& own_files, const std::string& what,
-                         bool force, bool resume) {
+io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::string>& own_files,
+                                 const std::string& what, bool force, bool resume) {
   io::check_name_length(folder);
   const auto journal = folder / "journal.jsonl";
-  std::error_code ignored;
+  std::error_code failed, ignored;
   const auto refuse = [](const fs::path& path, const std::string& problem, const std::string& remedy) {
     throw io::InputError({path.string(), 0, ""}, problem, "", remedy);
   };
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     refuse(folder, fmt::format("this is a file, and {} needs a folder", with_article(what)),
            "name another one with -o");
+  fs::create_directories(folder, failed);
+  if (failed == std::errc::no_space_on_device || failed == std::errc::io_error)
+    io::fail_writing(folder, failed.value());
+  if (failed)
+    refuse(folder, fmt::format("the folder cannot be made ({})", failed.message()), "name another one with -o");
+  io::OutputLock lock(journal);
   const std::string there = results::kind_in_journal(folder);
   if (!there.empty() && there != what)
     refuse(folder, fmt::format("this folder holds {}, not {}", with_article(there), with_article(what)),
            "name another folder with -o");
   const bool begun = fs::exists(journal);
-  if (force && !resume)
-    for (const fs::path& path : own_paths(folder, own_files))
-      if (begun || !fs::is_directory(path, ignored)) fs::remove_all(path);
-  if (!resume && fs::exists(journal))
+  if (begun && !resume && !force)
     refuse(folder, fmt::format("this folder holds {} already", with_article(what)),
            "continue it with --resume, start over with --force, or name another folder with -o");
+  if (force && !resume)
+    for (const fs::path& path : own_paths(folder, own_files))
+      if (path != journal && (begun || !fs::is_directory(path, ignored))) fs::remove_all(path);
+  if (force && !resume) fs::remove(journal);  // Last: a kill before leaves a folder that --force still knows.
   if (!fs::exists(journal))
     for (const fs::path& path : own_paths(folder, own_files))
       refuse(path, fmt::format("{} would overwrite this file", with_article(what)),
              "start over with --force, or name another folder with -o");
-  fs::create_directories(folder, ignored);
-  if (ignored == std::errc::no_space_on_device || ignored == std::errc::io_error)
-    io::fail_writing(folder, ignored.value());
-  if (ignored)
-    refuse(folder, fmt::format("the folder cannot be made ({})", ignored.message()), "name another one with -o");
+  io::remove_dead_temporaries(folder);
+  for (const char* sub : {"runs", "histories"}) io::remove_dead_temporaries(folder / sub);
+  return lock;
 }
 
 }  // namespace perfora::optimize

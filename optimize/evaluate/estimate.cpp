@@ -3,6 +3,8 @@
 // packing).
 #include "optimize/evaluate/estimate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +12,7 @@
 #include "geometry/clip.h"
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
+#include "io/text.h"
 #include "optimize/evaluate/estimate_stepping.h"
 #include "results/grade.h"
 #include "solver/grade.h"
@@ -112,6 +115,28 @@ void estimate_resources(const Design& design, int threads, DesignEstimate& estim
 }
 
 }  // namespace
+
+std::vector<std::string> cost_warnings(const DesignEstimate& estimate) {
+  constexpr double year = 365.0 * 86400.0;
+  if (!(estimate.seconds > year)) return {};
+  return {fmt::format(
+      "a run takes some {} steps of {}, more than a year: take larger discs, a smaller cell, a larger "
+      "dynamics.step_factor or a faster rate",
+      io::count(static_cast<double>(estimate.steps)), io::quantity(estimate.time_step, io::Dimension::time))};
+}
+
+std::string memory_problem(const DesignFile& file, const DesignEstimate& estimate, double allowed) {
+  if (!(estimate.memory_bytes > allowed)) return {};
+  const auto text = [](double bytes) { return io::quantity(bytes, io::Dimension::memory); };
+  // Bonds and discs go with the inverse square of the diameter.
+  const double fitting = file.design().packing.mean_diameter * std::sqrt(estimate.memory_bytes / allowed);
+  return fmt::format("a run of {} discs takes about {} of memory, and {} are allowed; {} would fit",
+                     io::count(static_cast<double>(estimate.discs)), text(estimate.memory_bytes), text(allowed),
+                     file.design().packing.file.empty()
+                         ? fmt::format("packing.mean_diameter = \"{}\" or more, or a smaller cell,",
+                                       io::quantity(fitting, io::Dimension::length))
+                         : std::string("a packing of fewer discs"));
+}
 
 double characteristic_length(const solver::MaterialOptions& material, double mean_diameter) {
   if (material.characteristic_length > 0.0)

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "optimize/evaluate/design.h"
 
@@ -27,6 +29,13 @@ struct DesignEstimate {
 
 /// `design` must be valid (DesignFile::validate). `threads` >= 1. Cost: milliseconds (an imported packing is read).
 DesignEstimate estimate_design(const DesignFile& file, int threads);
+
+/// What a user should know before a run of this cost is started, a sentence each: more than a year of time.
+std::vector<std::string> cost_warnings(const DesignEstimate& estimate);
+
+/// What is wrong with a run that would take more than `allowed` bytes of memory, with the diameter of discs that would
+/// fit; empty: nothing is.
+std::string memory_problem(const DesignFile& file, const DesignEstimate& estimate, double allowed);
 
 /// E G/sigma_t^2 of the solid material with discs of this mean diameter, m: as measured
 /// (material.characteristic_length, which grows with the discs), or estimated as 13 <d> (horizon/3)^1.4, which tension

@@ -43,10 +43,12 @@ std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, 
   if (!options.packing_file.empty())
     return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, key));
   return cached_packing(key, [&] {
-    return geometry::make_packing(design.packing, width, height, seed, options.threads,
-                                  [&](double fraction, const std::string& text) {
-                                    if (options.progress) options.progress({fraction, text});
-                                  });
+    return geometry::make_packing(
+        design.packing, width, height, seed, options.threads,
+        [&](double fraction, const std::string& text) {
+          if (options.progress) options.progress({fraction, text});
+        },
+        options.cancellation);
   });
 }
 
@@ -78,6 +80,17 @@ PackedDesign pack_without_bonds(const DesignFile& file, const EvaluateOptions& o
     packed.summary.wall_ratio = packed.summary.thinnest_wall.thickness /
                                 characteristic_length(design.solver.material, mean_diameter_of(file, packed.periodic));
   return packed;
+}
+
+/// Nothing measured.
+Evaluation unfinished_evaluation(results::RunStatus status, const std::string& reason, int replicate,
+                                 const Seeds::Effective& seeds) {
+  Evaluation evaluation;
+  evaluation.status = evaluation.summary.status = status;
+  evaluation.reason = evaluation.summary.reason = reason;
+  evaluation.replicate = replicate;
+  evaluation.seeds = seeds;
+  return evaluation;
 }
 
 /// The results of a run as an evaluation; curve and all.
@@ -145,14 +158,7 @@ PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& option
 }
 
 Evaluation failed_evaluation(const std::string& reason, int replicate, const Seeds::Effective& seeds) {
-  Evaluation evaluation;
-  evaluation.status = results::RunStatus::failed;
-  evaluation.reason = reason;
-  evaluation.replicate = replicate;
-  evaluation.seeds = seeds;
-  evaluation.summary.status = evaluation.status;
-  evaluation.summary.reason = reason;
-  return evaluation;
+  return unfinished_evaluation(results::RunStatus::failed, reason, replicate, seeds);
 }
 
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading) {
@@ -224,10 +230,16 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
 }
 
 Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
+  const io::Cancellation::Attention attention = options.cancellation.attend();
   if (options.resume && !options.run_file.empty())
     if (auto finished = finished_evaluation(design, options.run_file, replicate)) return std::move(*finished);
   const Seeds::Effective seeds = design.design().seeds.effective(replicate);
-  const PackedDesign packed = pack_without_bonds(design, options, seeds);
+  PackedDesign packed;
+  try {
+    packed = pack_without_bonds(design, options, seeds);
+  } catch (const io::Cancelled&) {
+    return unfinished_evaluation(results::RunStatus::stopped, "signal", replicate, seeds);
+  }
   if (!packed.periodic.quality.reached || packed.clipped.size() == 0) {
     Evaluation failed =
         failed_evaluation(packed.periodic.quality.reached ? "no disc is left between the perforations"

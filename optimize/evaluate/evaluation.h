@@ -28,7 +28,7 @@ struct EvaluateOptions {
                                        ///< or take it from memory
   bool resume = false;
   double wall_time_limit = 0.0;   ///< s, 0: none
-  io::Cancellation cancellation;  ///< requested: the compression writes a checkpoint and stops
+  io::Cancellation cancellation;  ///< requested: the packing is given up, the compression writes a checkpoint and stops
   std::string command_line;
   results::ProgressCallback progress;  ///< of the packing, then of the compression; may be empty
 };
@@ -44,7 +44,8 @@ struct PackedDesign {
 using results::Evaluation;
 
 /// Makes layout and packing (the packing is kept in memory per key and reused within this process; `packing_file` reads
-/// it from a file) and clips. Throws io::InputError; a packing that was not reached shows in periodic.quality.
+/// it from a file) and clips. Throws io::InputError, and io::Cancelled once options.cancellation is requested; a
+/// packing that was not reached shows in periodic.quality.
 PackedDesign pack_design(const DesignFile& design, const EvaluateOptions& options, int replicate);
 
 /// With options.resume a run that is finished is read from its file, an unfinished one goes on from its checkpoint.

@@ -185,9 +185,16 @@ MaterialTests test_material(const DesignFile& design, const std::vector<Material
   std::vector<PackedDesign> packed(static_cast<std::size_t>(options.replicates));
   EvaluateOptions packing;
   packing.threads = options.threads;
+  packing.cancellation = options.cancellation;
   for (int r = 0; r < options.replicates; ++r) {
     if (options.progress) options.progress({0.0, fmt::format("packing sample {} of {}", r + 1, options.replicates)});
-    packed[static_cast<std::size_t>(r)] = pack_design(sample, packing, r);
+    try {
+      packed[static_cast<std::size_t>(r)] = pack_design(sample, packing, r);
+    } catch (const io::Cancelled&) {
+      tests.status = results::RunStatus::stopped;
+      tests.reason = "signal";
+      return tests;
+    }
     const geometry::Packing& periodic = packed[static_cast<std::size_t>(r)].periodic;
     if (!periodic.quality.reached) {
       tests.status = results::RunStatus::failed;
@@ -236,7 +243,15 @@ Evaluation evaluate_material_test(const DesignFile& design, MaterialTestKind kin
   const Seeds::Effective seeds = sample.design().seeds.effective(replicate);
   EvaluateOptions packing;
   packing.threads = threads;
-  const PackedDesign packed = pack_design(sample, packing, replicate);
+  packing.cancellation = cancellation;
+  PackedDesign packed;
+  try {
+    packed = pack_design(sample, packing, replicate);
+  } catch (const io::Cancelled&) {
+    Evaluation stopped = failed_evaluation("signal", replicate, seeds);
+    stopped.status = stopped.summary.status = results::RunStatus::stopped;
+    return stopped;
+  }
   if (!packed.periodic.quality.reached)
     return failed_evaluation("packing not reached: " + packed.periodic.quality.reason, replicate, seeds);
   const MaterialTestResult result = run_one(sample, packed, kind, replicate, cancellation, {});

@@ -10,9 +10,11 @@ namespace perfora::optimize {
 
 namespace fs = std::filesystem;
 
-void check_run_output(const fs::path& run_file, bool force, bool resume) {
+io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resume) {
   if (run_file.extension() != ".h5")
     throw io::InputError({"-o", 0, run_file.string()}, "the run file does not end in .h5", "a name such as result.h5");
+  io::check_output(run_file, true, false);  // that there is a folder for the lock
+  io::OutputLock lock(run_file);
   io::check_output(run_file, force, resume);
   const std::array<fs::path, 3> beside = {fs::path(run_file).replace_extension(".csv"),
                                           fs::path(run_file).replace_extension(".xdmf"),
@@ -20,7 +22,7 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
   if (!resume)
     for (const fs::path& path : beside) io::check_output(path, force, false);
   const fs::path part = fs::path(run_file).replace_extension(".part");
-  if (resume) return;
+  if (resume) return lock;
   if (fs::exists(part) && !force)
     throw io::InputError({part.string(), 0, ""}, "holds a run that did not end", "",
                          "--resume continues it, --force throws it away, or name another output with -o");
@@ -28,16 +30,17 @@ void check_run_output(const fs::path& run_file, bool force, bool resume) {
   fs::remove_all(part);
   io::remove_output(run_file);
   for (const fs::path& path : beside) io::remove_output(path);
+  return lock;
 }
 
-std::vector<std::string> prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
-                                            bool force) {
-  std::vector<std::string> warnings = design.validate();
+PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
+                                      bool force) {
+  PreparedEvaluation prepared{design.validate(), {}};
   if (!options.packing_file.empty()) require_packing_file(design, options.packing_file, replicate);
-  if (options.run_file.empty()) return warnings;
-  check_run_output(options.run_file, force, options.resume);
+  if (options.run_file.empty()) return prepared;
+  prepared.lock = claim_run_output(options.run_file, force, options.resume);
   if (options.resume) static_cast<void>(finished_evaluation(design, options.run_file, replicate));
-  return warnings;
+  return prepared;
 }
 
 }  // namespace perfora::optimize

@@ -6,17 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "io/lock.h"
 #include "optimize/evaluate/evaluation.h"
 
 namespace perfora::optimize {
 
-/// Refuses to start over something that exists: R.h5, the files beside it or R.part, where a run keeps what must
-/// survive a kill. With `force` all of them are removed, with `resume` all are left. Throws io::InputError.
-void check_run_output(const std::filesystem::path& run_file, bool force, bool resume);
+/// Takes the output of a run: its lock first, then refuses to start over something that exists: R.h5, the files beside
+/// it or R.part, where a run keeps what must survive a kill. With `force` all of them are removed, with `resume` all
+/// are left. Throws io::InputError, also where another process uses the output.
+[[nodiscard]] io::OutputLock claim_run_output(const std::filesystem::path& run_file, bool force, bool resume);
 
-/// Checks the design, options.packing_file, and options.run_file as check_run_output() does; with options.resume
-/// refuses a finished run of another design. Returns the warnings of the design. Throws io::InputError.
-std::vector<std::string> prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
-                                            bool force);
+/// What stands before an evaluation.
+struct PreparedEvaluation {
+  std::vector<std::string> warnings;  ///< of the design
+  io::OutputLock lock;                ///< to be held until all files of the run are written
+};
+
+/// Checks the design and options.packing_file, takes options.run_file as claim_run_output() does; with options.resume
+/// refuses a finished run of another design. Throws io::InputError.
+PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
+                                      bool force);
 
 }  // namespace perfora::optimize

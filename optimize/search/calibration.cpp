@@ -18,8 +18,9 @@ using nlohmann::json;
 
 void describe(io::Schema& schema, CalibrationKeys& keys) {
   constexpr double largest_poisson = 0.49;
-  schema.section("calibrate", "Bond parameters for wanted constants of the solid material (perfora calibrate).")
-      .path("design", keys.design, "Design file that packing, horizon, law and density come from.")
+  auto section =
+      schema.section("calibrate", "Bond parameters for wanted constants of the solid material (perfora calibrate).");
+  section.path("design", keys.design, "Design file that packing, horizon, law and density come from.")
       .real("young_modulus", keys.young_modulus, Dimension::stress, Range::non_negative(),
             "Wanted E; 0: not wanted, k_n stays.")
       .real("poisson_ratio", keys.poisson_ratio, Dimension::none, Range::between(0.0, largest_poisson),
@@ -40,6 +41,7 @@ void describe(io::Schema& schema, CalibrationKeys& keys) {
       .boolean(
           "chart", keys.chart,
           "Also test a grid of zeta_max and delta_t^0/delta_n^0 and draw which ratios of strengths can be reached.");
+  describe(section, keys.execution);
 }
 
 json statistic_json(const results::Statistic& s) {
@@ -61,6 +63,7 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
   const TableFile file(path, {{"calibrate"}, {}}, schema, overrides);
   const CalibrationKeys& keys = calibration.keys;
   const auto start = file.start(keys.design);
+  refuse_skip(keys.execution, schema.origin("calibrate.on_trouble"));
   if (!(keys.tensile_strength > 0.0))
     throw io::InputError({path.string(), 0, "calibrate.tensile_strength"}, "no tensile strength is given",
                          "a positive stress", "add tensile_strength = \"3 MPa\" or the like to [calibrate]");
@@ -98,21 +101,25 @@ json to_json(const CalibrationResult& result) {
                       {"compressive_strength", statistic_json(p.compressive)},
                       {"strength_ratio", number(p.ratio())},
                       {"of_chart", p.of_chart}});
-  return {{"schema", "perfora.calibrate/1"},
-          {"status", results::status_name(result.status)},
-          {"reason", result.reason},
-          {"results_version", results_version},
-          {"found",
-           {{"normal_stiffness", positive(result.found.normal_stiffness)},
-            {"tangential_stiffness", positive(result.found.tangential_stiffness)},
-            {"critical_normal_stretch", positive(result.found.critical_normal_displacement)},
-            {"critical_shear_displacement", positive(result.found.critical_shear_displacement)},
-            {"rupture_delay", positive(result.found.rupture_delay)}}},
-          {"targets", targets},
-          {"not_met", result.not_met},
-          {"points", points},
-          {"confirmation", result.confirmation.runs.empty() ? json(nullptr) : to_json(result.confirmation)},
-          {"performance", {{"seconds", number(result.seconds)}, {"threads", result.confirmation.performance.threads}}}};
+  json record = {
+      {"schema", "perfora.calibrate/1"},
+      {"status", results::status_name(result.status)},
+      {"reason", result.reason},
+      {"results_version", results_version},
+      {"found",
+       {{"normal_stiffness", positive(result.found.normal_stiffness)},
+        {"tangential_stiffness", positive(result.found.tangential_stiffness)},
+        {"critical_normal_stretch", positive(result.found.critical_normal_displacement)},
+        {"critical_shear_displacement", positive(result.found.critical_shear_displacement)},
+        {"rupture_delay", positive(result.found.rupture_delay)}}},
+      {"targets", targets},
+      {"not_met", result.not_met},
+      {"points", points},
+      {"confirmation", result.confirmation.runs.empty() ? json(nullptr) : to_json(result.confirmation)},
+      {"performance", {{"seconds", number(result.seconds)}, {"threads", result.confirmation.performance.threads}}}};
+
+  if (!result.troubles.empty()) record["troubles"] = result.troubles;
+  return record;
 }
 
 }  // namespace perfora::optimize

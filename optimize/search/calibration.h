@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/cancellation.h"
+#include "optimize/campaign/execution.h"
 #include "optimize/evaluate/material_tests.h"
 #include "optimize/evaluate/material_tests_file.h"
 
@@ -30,6 +31,7 @@ struct CalibrationKeys {
   int replicates = 2;               ///< samples a point
   int maxeval = 14;                 ///< points of the search for delta_t0/delta_n0, a zeta_max
   bool chart = true;                ///< draw which ratios of strengths can be reached
+  ExecutionKeys execution;          ///< the result does not depend on it
 };
 
 /// A calibration, read and checked.
@@ -75,6 +77,7 @@ struct CalibrationResult {
   std::vector<std::string> not_met;  ///< a sentence each: what and why
   std::vector<StrengthPoint> points;
   MaterialTests confirmation;           ///< all tests with the parameters found
+  std::vector<std::string> troubles;    ///< failures of the surroundings that ended it; it is `stopped` then
   std::filesystem::path material_file;  ///< that designs name as material.from; empty: not written
   double seconds = 0.0;
 };

@@ -54,6 +54,7 @@ class CalibrationRun final : public Campaign {
     work.force = options.force;
     work.command_line = options.command_line;
     work.make_executor = options.make_executor;
+    work.execution = keys_.execution;
     work.cancellation = options.cancellation;
     work.progress = [this](const WorkProgress& so_far) {
       const int most = most_points(calibration_) * tests_a_point();
@@ -74,6 +75,7 @@ class CalibrationRun final : public Campaign {
     made.points = search_.points;
     made.confirmation = confirmation_;
     made.seconds = seconds();
+    made.troubles = troubles();
     if (!confirmation_.runs.empty()) made.material_file = options_.folder / material_name;
     return made;
   }
@@ -100,11 +102,14 @@ class CalibrationRun final : public Campaign {
   /// A point that was tested: the strengths of its samples by test.
   void read_event(const json& event, Answers& answers) const override {
     if (event.value("event", "") != "point") return;
+    // Without reasons it is of a program that took a worker's death for a test without a strength: tested again.
+    const bool trusted = event.contains("reasons");
     for (const char* test : tests_of_a_point) {
       const json strengths = event.value(test, json::array());
       for (int replicate = 0; replicate < static_cast<int>(strengths.size()); ++replicate) {
         Evaluation evaluation = failed_evaluation("", replicate);
         const json& strength = strengths.at(static_cast<std::size_t>(replicate));
+        if (!strength.is_number() && !trusted) continue;
         if (strength.is_number()) evaluation.summary.first_peak_stress = strength.get<double>();
         answers.add(test_key(event.at("key"), test, replicate), std::move(evaluation));
       }
@@ -146,6 +151,17 @@ class CalibrationRun final : public Campaign {
                   {"rupture_delay", question.rupture_delay},
                   {"tension", json::array()},
                   {"compression", json::array()}};
+    json reasons = json::object();  // of tests that gave no strength
+    for (int replicate = 0; replicate < keys_.replicates; ++replicate)
+      for (const char* test : tests_of_a_point) {
+        const std::string key = test_key(question.key, test, replicate);
+        const auto known = answers.of(key);
+        const Evaluation* one = key == asked.key              ? &answer.evaluation
+                                : known.first != known.second ? &known.first->second
+                                                              : nullptr;
+        if (one && !std::isfinite(one->summary.first_peak_stress)) reasons[key] = one->reason;
+      }
+    event["reasons"] = reasons;
     for (const double value : strengths->tension) event["tension"].push_back(number(value));
     for (const double value : strengths->compression) event["compression"].push_back(number(value));
     return event;
@@ -342,7 +358,8 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
 
 int calibration_workers(const Calibration& calibration, int asked) {
   const int tests = static_cast<int>(std::size(tests_of_a_point)) * calibration.keys.replicates;
-  return workers_for(asked, 0, std::int64_t{tests} * std::max(1, chart_points(calibration)));
+  return workers_for(asked, calibration.keys.execution.workers,
+                     std::int64_t{tests} * std::max(1, chart_points(calibration)));
 }
 
 }  // namespace perfora::optimize

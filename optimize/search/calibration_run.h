@@ -32,7 +32,8 @@ struct CalibrationOptions {
 /// confirmation.h5. Throws io::InputError.
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options);
 
-/// How many tests run at once: `asked`, but not more than can be under way together.
+/// How many tests run at once: `asked`, or what the file says, or one a core (0: not given), but not more than can be
+/// under way together.
 int calibration_workers(const Calibration& calibration, int asked);
 
 }  // namespace perfora::optimize

@@ -49,7 +49,7 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   section.integer("refine_maxeval", keys.refine_maxeval, Range::non_negative(), "Candidates of the second stage");
   section.real("refine_step", keys.refine_step, Dimension::ratio, Range{0.0, 1.0, true, false},
                "First step of the second stage as a fraction of the bounds");
-  section.integer("workers", keys.workers, Range::non_negative(), "Evaluations at once; 0: one a core");
+  describe(section, keys.execution);
 }
 
 /// Everything that is needed while a study file is read.
@@ -98,6 +98,7 @@ struct Reader {
     if (study.keys.maxeval < 1)
       throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
                            "add maxeval = 24 under [study]; most algorithms never stop by themselves");
+    refuse_skip(study.keys.execution, origin("study.on_trouble"));
     set_target(start);
     set_window(start);
     check_algorithms();
@@ -250,7 +251,7 @@ std::map<std::string, std::string> Study::resolved() const {
   describe(schema, aim);
   describe(schema, limits);
   for (const io::Key& key : schema.keys())
-    if (key.full_name() != "study.design" && key.full_name() != "study.workers")
+    if (key.full_name() != "study.design" && !(key.section == "study" && is_execution_key(key.name)))
       all[key.full_name()] = io::value_text(key.get());
   for (const Variable& variable : variables)
     all["variables." + variable.key] = fmt::format("[{:.17g}, {:.17g}]", variable.low, variable.high);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/campaign/execution.h"
 #include "optimize/evaluate/fidelity.h"
 #include "optimize/search/constraints.h"
 #include "optimize/search/objective.h"
@@ -37,7 +38,7 @@ struct StudyKeys {
   std::string refine;          ///< local algorithm of a second stage that begins at the best candidate; "": none
   int refine_maxeval = 0;      ///< candidates of the second stage, beside maxeval
   double refine_step = 0.05;   ///< its initial step, as a fraction of the bounds
-  int workers = 0;             ///< evaluations at once; 0: one a core. The result does not depend on it
+  ExecutionKeys execution;     ///< the result does not depend on it
 };
 
 /// One continuous variable: a numeric key of the design with its bounds (SI).
@@ -72,7 +73,7 @@ struct Study {
   std::vector<std::string> warnings;
 
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",
-  /// "design.material.horizon", ...); file names, workers and output options are left out.
+  /// "design.material.horizon", ...); file names, how it is carried out and output options are left out.
   std::map<std::string, std::string> resolved() const;
   /// Names in resolved() whose keys are at their defaults.
   std::set<std::string> at_default() const;

@@ -226,6 +226,7 @@ json to_json(StudyRun& run) {
   record["start"] = start ? design_values(study, *start) : json(nullptr);
   record["start_score"] = plan.start.detail.valid ? number(plan.start.score) : json(nullptr);
   record["finals"] = finals_json(plan.finals);
+  if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   record["performance"] = performance_json(run);
   return record;
 }

@@ -33,10 +33,11 @@ std::string arm_names(const Study& study) {
 
 int useful_workers(const Study& study, int asked) {
   const std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * study.keys.replicates;
-  return workers_for(asked, study.keys.workers, parallel);
+  return workers_for(asked, study.keys.execution.workers, parallel);
 }
 
 StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)), driver_(study_) {
+  options.execution = study_.keys.execution;
   open(std::move(options));
 }
 

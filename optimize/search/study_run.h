@@ -48,7 +48,7 @@ class StudyRun final : public Campaign {
   std::map<std::string, const Candidate*> candidates_;  ///< by request key, of everything asked
 };
 
-/// How many evaluations can run at once: `asked`, or the study's workers, or all cores, but not more than arms x
+/// How many evaluations can run at once: `asked`, or the study's workers, or one a processor, but not more than arms x
 /// replicates.
 int useful_workers(const Study& study, int asked);
 

@@ -273,6 +273,28 @@ TEST_F(CommandLine, CheckSaysWhatWouldRun) {
 
 // Two cases and the design, two replicates: tables, picture and run files appear; the same design alone gives the same
 // numbers; a finished sweep resumed with one more value runs only that.
+TEST_F(CommandLine, WhatTheMachineCannotDoIsRefusedBeforehand) {
+  Outcome refused = run("evaluate d.toml --threads 4096");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.error, HasSubstr("4096 is outside 1 to"));
+  for (const char* command :
+       {"evaluate d.toml", "evaluate d.toml --replicates 2", "evaluate d.toml --elastic", "pack d.toml"}) {
+    refused = run(std::string(command) + " --memory \"1 MB\" --force");
+    EXPECT_EQ(refused.exit_code, 1) << command;
+    EXPECT_THAT(refused.error, HasSubstr("1 MB are allowed; packing.mean_diameter = ")) << command;
+    EXPECT_THAT(refused.error, HasSubstr("--memory SIZE")) << command;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 3) << "the design and this test's own two texts";
+  EXPECT_EQ(run("evaluate d.toml --quiet --memory \"1 GB\"").exit_code, 0);
+}
+
+TEST_F(CommandLine, AnEstimateBeyondCountingIsAWarning) {
+  const Outcome checked = run("check d.toml --set dynamics.step_factor=1e-300 --json");
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_GT(json::parse(checked.output).at("steps").get<std::int64_t>(), std::int64_t{1'000'000'000'000});
+  EXPECT_THAT(checked.error, HasSubstr("more than a year"));
+}
+
 TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   std::ofstream(folder_ / "s.toml") << "[sweep]\ndesign = \"d.toml\"\nreplicates = 2\nbase = true\nrun_files = true\n"
                                        "[each]\nmaterial.horizon = [2.0, 2.5]\n";

@@ -1,9 +1,6 @@
 // What is here: A run killed by SIGKILL at random moments and resumed each time ends with the same bits as the run that
 // was never stopped; so do one and two threads. Expected values: the straight run of the same program.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -16,33 +13,12 @@
 #include <vector>
 
 #include "io/hdf5.h"
-
-extern char** environ;  // NOLINT: POSIX declares it nowhere
+#include "processes.h"
 
 namespace perfora {
 namespace {
 
 namespace fs = std::filesystem;
-
-pid_t start(const std::vector<std::string>& arguments) {
-  std::vector<char*> argv;
-  for (const std::string& text : arguments) argv.push_back(const_cast<char*>(text.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  for (const int descriptor : {1, 2}) posix_spawn_file_actions_addopen(&quiet, descriptor, "/dev/null", O_WRONLY, 0);
-  pid_t pid = -1;
-  EXPECT_EQ(posix_spawn(&pid, PERFORA_PROGRAM, &quiet, nullptr, argv.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&quiet);
-  return pid;
-}
-
-/// Exit code of a finished process, minus the signal that ended it.
-int finish(pid_t pid) {
-  int status = 0;
-  waitpid(pid, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-}
 
 struct Case {
   std::string until;
@@ -57,17 +33,11 @@ Case wanted_case() {
 }
 
 std::vector<std::string> command(const fs::path& out, const std::string& until, int threads) {
-  return {PERFORA_PROGRAM,
-          "evaluate",
-          std::string(PERFORA_SOURCE_DIR) + "/designs/quick.toml",
-          "-o",
-          out.string(),
-          "--until",
-          until,
-          "--threads",
-          std::to_string(threads),
-          "--set",
-          "output.checkpoint_interval=0.2",
+  return {"evaluate",  std::string(PERFORA_SOURCE_DIR) + "/designs/quick.toml",
+          "-o",        out.string(),
+          "--until",   until,
+          "--threads", std::to_string(threads),
+          "--set",     "output.checkpoint_interval=0.2",
           "--quiet"};
 }
 

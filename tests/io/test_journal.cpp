@@ -1,5 +1,5 @@
-// What is here: the promises of the journal: torn lines dropped, damage named, one owner, nothing lost by a kill.
-// What is not: what events mean.
+// What is here: the promises of the journal: torn lines dropped, damage named, nothing lost by a kill.
+// What is not: who may write it (test_lock.cpp), what events mean.
 #include "io/files.h"
 #include "io/journal.h"
 
@@ -79,16 +79,6 @@ TEST_F(JournalFile, FlippedBitInTheMiddleNamesTheLine) {
                 StartsWith(path.string() + ":2: this line of the journal is damaged"));
     EXPECT_EQ(read_file(path), damaged);  // refused, not repaired
   }
-}
-
-TEST_F(JournalFile, SecondOwnerIsRefused) {
-  const Journal first(path);
-  EXPECT_THAT(input_error([&] { Journal second(path); }), HasSubstr("is in use by another process"));
-}
-
-TEST_F(JournalFile, LockGoesWithItsOwner) {
-  { const Journal first(path); }
-  EXPECT_NO_THROW(Journal second(path));
 }
 
 TEST_F(JournalFile, FolderThatIsMissing) {

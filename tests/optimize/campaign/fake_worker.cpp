@@ -50,6 +50,15 @@ void misbehave(int replicate, const std::string& folder) {
     case 110:
       ::usleep(300000);
       break;
+    case 112:
+      std::raise(SIGSTOP);
+      break;
+    case 113:
+      for (int k = 0; k < 3; ++k) {
+        std::cout << "{\"alive\":true}" << std::endl;
+        ::usleep(20000);
+      }
+      break;
     default:
       break;
   }
@@ -63,6 +72,10 @@ int main(int, char** arguments) {
     const Request request = request_from_json(nlohmann::json::parse(line));
     std::ofstream(folder + "/pids", std::ios::app) << ::getpid() << "\n";
     misbehave(request.replicate, folder);
+    if (request.replicate == 114) {
+      std::cout << "{\"trouble\": \"no space left\"}" << std::endl;
+      continue;
+    }
     Evaluation evaluation = mode == "formula" ? fake_evaluation(request) : failed_evaluation("", request.replicate);
     if (mode == "numbers") {
       evaluation.status = perfora::results::RunStatus::completed;

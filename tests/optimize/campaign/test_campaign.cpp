@@ -140,8 +140,11 @@ TEST_F(CampaignTest, AsksUntilNothingIsLeft) {
   std::ifstream journal(folder_ / "work/journal.jsonl");
   std::string line;
   std::getline(journal, line);
-  EXPECT_EQ(json::parse(line.substr(line.find('{'))),
-            json({{"event", "count"}, {"name", "a"}, {"results_version", results_version}, {"command_line", "count"}}));
+  EXPECT_EQ(json::parse(line.substr(line.find('{'))), json({{"event", "count"},
+                                                            {"name", "a"},
+                                                            {"results_version", results_version},
+                                                            {"command_line", "count"},
+                                                            {"run_files_kept", false}}));
 }
 
 TEST_F(CampaignTest, StoppedItKeepsWhatIsFinishedAndGoesOn) {
@@ -191,6 +194,10 @@ TEST_F(CampaignTest, FoldersOfOtherWorkAreRefused) {
     Counting run("a", 1, options());
     run.run();
     EXPECT_THAT(complaint([&] { Counting("a", 1, options(true)); }), HasSubstr("in use"));
+    WorkOptions forced = options();
+    forced.force = true;
+    EXPECT_THAT(complaint([&] { Counting("a", 1, forced); }), HasSubstr("in use"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "work/sum.txt")) << "nothing is removed of what is in use";
   }
   EXPECT_THAT(complaint([&] { Counting("a", 1, options()); }), HasSubstr("holds a count already; continue it with"));
   EXPECT_THAT(complaint([&] { Counting("b", 1, options(true)); }), HasSubstr("another count"));
@@ -199,6 +206,144 @@ TEST_F(CampaignTest, FoldersOfOtherWorkAreRefused) {
     io::Journal(folder_ / "work/journal.jsonl").append(R"({"event":"ensemble"})");
   }
   EXPECT_THAT(complaint([&] { Counting("a", 1, options(true)); }), HasSubstr("holds an ensemble, not a count"));
+}
+
+/// Options whose workers fail: number "1" `times` times with a trouble, number "2" by its own doing.
+class TroubleTest : public CampaignTest {
+ protected:
+  WorkOptions troubled(int times, OnTrouble on_trouble, bool resume = false) {
+    WorkOptions made = options(resume);
+    made.execution.on_trouble = on_trouble;
+    made.make_executor = [this, times] {
+      return make_in_process_executor(
+          [this, times](const Request& request) {
+            const auto number = request.design->seeds.seed - 1;
+            ++asked_;
+            if (number == 2) throw io::InputError({}, "cannot be laid out");
+            if (number == 1 && troubles_++ < times) throw io::SurroundingsError("the disk is full");
+            return Counting::plateau(request);
+          },
+          1);
+    };
+    troubles_ = 0;
+    return made;
+  }
+  int troubles_ = 0;
+};
+
+TEST_F(TroubleTest, IsTriedAgainAndLeavesNoTrace) {
+  Counting run("a", 4, troubled(2, OnTrouble::retry));
+  run.run();
+  EXPECT_EQ(run.status(), results::RunStatus::completed);
+  EXPECT_TRUE(run.troubles().empty());
+  EXPECT_EQ(run.retries(), 2);
+  EXPECT_EQ(asked_, 4 + 2);
+  EXPECT_EQ(run.answers().size(), 4U);
+  EXPECT_THAT(events(), ::testing::UnorderedElementsAre("count", "evaluation", "trouble", "evaluation", "evaluation",
+                                                        "trouble", "evaluation", "finished"));
+}
+
+TEST_F(TroubleTest, StopsTheWorkInTheEndAndIsTriedAgainByResume) {
+  for (const OnTrouble policy : {OnTrouble::retry, OnTrouble::stop}) {
+    std::filesystem::remove_all(folder_ / "work");
+    asked_ = 0;
+    {
+      Counting run("a", 4, troubled(1000, policy));
+      run.run();
+      EXPECT_EQ(run.status(), results::RunStatus::stopped);
+      EXPECT_EQ(troubles_, policy == OnTrouble::stop ? 1 : 3);
+      ASSERT_EQ(run.troubles().size(), 1U);
+      EXPECT_EQ(run.troubles().front(),
+                policy == OnTrouble::stop ? "1: the disk is full" : "1: the disk is full, 3 times in a row");
+      EXPECT_THAT(run.reason(), ::testing::AllOf(HasSubstr(run.troubles().front()), HasSubstr("--resume")));
+    }
+    Counting again("a", 4, troubled(0, policy, true));
+    again.run();
+    EXPECT_EQ(again.status(), results::RunStatus::completed);
+    EXPECT_EQ(again.sum(), 0.0 + 1.0 + 3.0);
+    EXPECT_EQ(again.answers().size(), 4U);
+  }
+}
+
+TEST_F(TroubleTest, SkippedItGoesOnButIsNotCompleted) {
+  {
+    Counting run("a", 4, troubled(1000, OnTrouble::skip));
+    run.run();
+    EXPECT_EQ(troubles_, 3);
+    EXPECT_EQ(run.answers().size(), 3U) << "the others";
+    EXPECT_EQ(run.status(), results::RunStatus::stopped);
+    EXPECT_THAT(run.reason(), ::testing::AllOf(HasSubstr("1: the disk is full"), HasSubstr("left out")));
+  }
+  Counting again("a", 4, troubled(0, OnTrouble::stop, true));  // The rule may change.
+  again.run();
+  EXPECT_EQ(again.status(), results::RunStatus::completed);
+  EXPECT_EQ(again.answers().size(), 4U);
+}
+
+TEST_F(TroubleTest, WhatADesignDoesToItselfIsAResult) {
+  Counting run("a", 4, troubled(0, OnTrouble::stop));
+  run.run();
+  EXPECT_EQ(run.status(), results::RunStatus::completed);
+  const auto [first, last] = run.answers().of(Counting::request(2).key());
+  ASSERT_NE(first, last);
+  EXPECT_EQ(first->second.reason, "cannot be laid out");
+}
+
+// An earlier program wrote the death of a worker as a result.
+TEST_F(TroubleTest, OldJournalsKeepNone) {
+  {
+    Counting run("a", 4, options());
+    run.run();
+  }
+  const auto journal = folder_ / "work/journal.jsonl";
+  std::vector<std::string> lines;
+  {
+    const io::Journal old(journal);
+    lines = old.events();
+  }
+  std::filesystem::remove(journal);
+  {
+    io::Journal made(journal);
+    const std::vector<std::string> reasons{"the worker was ended by signal 9 (Killed), 2 times in a row",
+                                           "the worker ended with exit code 3, 2 times in a row",
+                                           "the worker took more than 5 s, 2 times in a row", "unstable step"};
+    std::size_t next = 0;
+    for (const std::string& line : lines) {
+      json event = json::parse(line);
+      if (event.at("event") == "evaluation") {
+        event["evaluation"]["status"] = "failed";
+        event["evaluation"]["reason"] = reasons.at(next++);
+      }
+      made.append(event.dump());
+    }
+  }
+  Counting again("a", 4, options(true));
+  EXPECT_EQ(again.answers().size(), 1U) << "the unstable one";
+  again.run();
+  EXPECT_EQ(asked_, 4 + 3);
+}
+
+TEST_F(CampaignTest, WhatAKillLeftGoesWithTheEnd) {
+  {
+    Counting run("a", 2, options(false, 1));
+    run.run();
+  }
+  for (const char* folder : {"work/runs/left.part", "work/histories"})
+    std::filesystem::create_directories(folder_ / folder);
+  const std::string own = io::temporary_name("").string();
+  const std::string mark = ".tmp-4194305" + own.substr(own.rfind('-'));  // beyond the largest number of a process
+  for (const char* name : {"work/runs/left.h5", "work/runs/left.part/x", "work/histories/left.h5"})
+    folder_.file(name, "left");
+  for (const char* name : {"work/sum.txt", "work/runs/left.h5", "work/histories/left.h5"})
+    folder_.file(name + mark, "half");
+  Counting again("a", 2, options(true));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ("work/sum.txt" + mark)));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "work/runs/left.h5")) << "it may be resumed";
+  again.run();
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "work"))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("journal.jsonl", "journal.jsonl.lock", "sum.txt"));
 }
 
 TEST_F(CampaignTest, ForceRemovesItsOwnFilesAlone) {

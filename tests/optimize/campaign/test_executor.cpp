@@ -1,13 +1,16 @@
-// What is here: both executors: answers, crashes, garbage, time limits, stops, and that no child outlives its parent.
-// What is not: what is asked (campaign.h).
+// What is here: both executors: answers, crashes, garbage, time limits, stopped children, stops, and that no child
+// outlives its parent. What is not: what is asked (campaign.h).
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <map>
+#include <new>
 #include <thread>
 
+#include "optimize/campaign/time_limit.h"
+#include "optimize/evaluate/estimate.h"
 #include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
@@ -52,15 +55,20 @@ TEST(InProcess, AnswersEverythingWithAnyNumberOfWorkers) {
         [](const Request& request) {
           Evaluation evaluation;
           evaluation.replicate = request.replicate;
+          if (request.replicate == 2) throw std::bad_alloc();
           if (request.replicate == 3) throw std::runtime_error("words");
+          if (request.replicate == 4) throw io::InputError({}, "no such hole");
           return evaluation;
         },
         workers);
     EXPECT_EQ(executor->workers(), workers);
     const auto answers = ask(*executor, {1, 2, 3, 4, 5});
     EXPECT_EQ(answers.at("5").evaluation.replicate, 5);
-    EXPECT_EQ(answers.at("3").evaluation.status, results::RunStatus::failed);
-    EXPECT_EQ(answers.at("3").evaluation.reason, "words");
+    EXPECT_EQ(answers.at("3").trouble, "words") << "no result of a design";
+    EXPECT_EQ(answers.at("4").evaluation.status, results::RunStatus::failed);
+    EXPECT_EQ(answers.at("4").evaluation.reason, "no such hole");
+    EXPECT_EQ(answers.at("4").trouble, "");
+    EXPECT_EQ(answers.at("2").trouble, "out of memory");
   }
 }
 
@@ -83,44 +91,74 @@ TEST(Children, AnswerEverythingWithAnyNumberOfWorkers) {
     const auto answers = ask(*executor, {1, 2, 3, 4, 5, 6, 7, 8});
     for (int k = 1; k <= 8; ++k) {
       EXPECT_EQ(answers.at(std::to_string(k)).evaluation.summary.plateau_stress, 1000.0 * k);
-      EXPECT_EQ(answers.at(std::to_string(k)).attempts, 1);
+      EXPECT_EQ(answers.at(std::to_string(k)).trouble, "");
     }
     EXPECT_LE(pids(folder).size(), static_cast<std::size_t>(workers)) << "workers are kept";
   }
 }
 
-TEST(Children, ACrashCostsOneEvaluation) {
+TEST(Children, ACrashIsATroubleAndNoEvaluation) {
   const StudyFolder folder;
   const auto executor = make_child_executor(child_options(folder, 2));
-  const auto answers = ask(*executor, {1, 103, 2, 105, 3, 106, 4, 108, 5, 109, 6, 111});
+  const auto answers = ask(*executor, {1, 103, 2, 105, 3, 106, 4, 108, 5, 109, 6, 111, 113, 114});
   for (int k = 1; k <= 6; ++k) EXPECT_EQ(answers.at(std::to_string(k)).evaluation.summary.plateau_stress, 1000.0 * k);
-  const std::map<std::string, std::string> reasons{{"103", "exit code 42"}, {"105", "cannot be read"},
-                                                   {"106", "signal 9"},     {"108", "cannot be read"},
-                                                   {"109", "signal 11"},    {"111", "told to stop"}};
+  const std::map<std::string, std::string> reasons{
+      {"103", "exit code 42"}, {"105", "cannot be read"}, {"106", "signal 9"},     {"108", "cannot be read"},
+      {"109", "signal 11"},    {"111", "told to stop"},   {"114", "no space left"}};
   for (const auto& [key, reason] : reasons) {
     const Answer& answer = answers.at(key);
-    EXPECT_EQ(answer.evaluation.status, results::RunStatus::failed) << key;
-    EXPECT_EQ(answer.attempts, 2) << key;
-    EXPECT_NE(answer.evaluation.reason.find(reason), std::string::npos) << answer.evaluation.reason;
+    EXPECT_NE(answer.trouble.find(reason), std::string::npos) << answer.trouble;
   }
+  EXPECT_EQ(answers.at("113").evaluation.summary.plateau_stress, 113000.0) << "signs of life are no answers";
 }
 
-TEST(Children, AreAskedASecondTime) {
+TEST(Children, AreReplacedWhenTheyDied) {
   const StudyFolder folder;
   const auto executor = make_child_executor(child_options(folder, 1));
-  const auto answers = ask(*executor, {104});
-  EXPECT_EQ(answers.at("104").attempts, 2);
-  EXPECT_EQ(answers.at("104").evaluation.summary.plateau_stress, 104000.0);
+  EXPECT_NE(ask(*executor, {104}).at("104").trouble, "");
+  EXPECT_EQ(ask(*executor, {104}).at("104").evaluation.summary.plateau_stress, 104000.0);
+}
+
+TEST(Children, ThatAreStoppedAreReplaced) {
+  const StudyFolder folder;
+  ChildOptions options = child_options(folder, 1);
+  options.silence = 300ms;
+  const auto executor = make_child_executor(options);
+  const auto answers = ask(*executor, {112, 110, 2});
+  EXPECT_NE(answers.at("112").trouble.find("was stopped"), std::string::npos) << answers.at("112").trouble;
+  EXPECT_EQ(answers.at("110").trouble, "") << "silent, but at work";
+  EXPECT_EQ(answers.at("2").evaluation.summary.plateau_stress, 2000.0);
+}
+
+TEST(Children, IdleOnesEndAtOnce) {
+  const StudyFolder folder;
+  const auto executor = make_child_executor(child_options(folder, 3));
+  static_cast<void>(ask(*executor, {1, 2, 3}));
+  const auto start = std::chrono::steady_clock::now();
+  executor->stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
+  for (const pid_t pid : pids(folder)) EXPECT_FALSE(alive(pid));
+}
+
+TEST(TimeLimits, AreTwentyTimesTheEstimateAndAMinuteOfWhatWasSlowest) {
+  TimeLimits limits(1);
+  const double estimate = estimate_design(DesignFile(), 1).seconds;  // of the strain that the design goes to
+  const Request request = make_request(DesignFile(), 0);
+  EXPECT_DOUBLE_EQ(limits.of(request), 20.0 * estimate + 60.0);
+  limits.learn(request, 0.1 * estimate);
+  EXPECT_DOUBLE_EQ(limits.of(request), 20.0 * estimate + 60.0);
+  limits.learn(request, 3.0 * estimate);
+  EXPECT_DOUBLE_EQ(limits.of(request), 60.0 * estimate + 60.0);
+  EXPECT_LT(limits.of(request_of(0)), limits.of(request)) << "a shorter run";
 }
 
 TEST(Children, AreKilledAtTheTimeLimit) {
   const StudyFolder folder;
   ChildOptions options = child_options(folder, 2);
-  options.time_limit = 0.3;
+  options.time_limit = 300ms;
   const auto executor = make_child_executor(options);
   const auto answers = ask(*executor, {1, 107, 2});
-  EXPECT_EQ(answers.at("107").evaluation.status, results::RunStatus::failed);
-  EXPECT_NE(answers.at("107").evaluation.reason.find("more than 0.3 s"), std::string::npos);
+  EXPECT_NE(answers.at("107").trouble.find("more than 0.3 s"), std::string::npos) << answers.at("107").trouble;
   EXPECT_EQ(answers.at("2").evaluation.summary.plateau_stress, 2000.0);
 }
 
@@ -172,7 +210,7 @@ TEST(Children, AProgramThatCannotStartIsAnErrorAndNotAFailedEvaluation) {
       {
         for (int k = 0; k < 100; ++k) static_cast<void>(executor->next(50ms));
       },
-      std::runtime_error);
+      io::SurroundingsError);
 }
 
 }  // namespace

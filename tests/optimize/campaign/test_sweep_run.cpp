@@ -57,6 +57,26 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
     EXPECT_NEAR(runs.columns[3][k], 1e5 * (runs.columns[2][k] + runs.columns[1][k]) + 1.1e4, 1e-3);
 }
 
+// Plateaus of 1e5 (3 + r) + 1e4 zeta, r = 0, 1, 2: mean 4e5 + 1e4 zeta, half of its interval 4.303/sqrt(3) 1e5 =
+// 248.4 kPa (Student, two degrees of freedom). Wished 100 to 900 kPa: zeta = 1.1 gives 411 +- 248 kPa, within; 41.1
+// gives 811 +- 248 kPa, across its upper end; 81.1 gives 1,211 +- 248 kPa, outside.
+TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
+  const std::string wish = "[set]\ntarget.plateau_stress = \"500 kPa\"\ntarget.tolerance = 0.8\n";
+  SweepRun run(sweep(sweep_text(wish + "[each]\nmaterial.rupture_delay = [1.1, 41.1, 81.1]\n")), options("out"));
+  run.run();
+  const auto cases = to_json(run).at("cases");
+  EXPECT_EQ(cases[0].at("verdict").at("outcome"), "met");
+  EXPECT_EQ(cases[1].at("verdict").at("outcome"), "not shown");
+  EXPECT_EQ(cases[2].at("verdict").at("outcome"), "missed");
+  const std::string table = cases_csv(run);
+  EXPECT_NE(table.find(",problem,outcome,"), std::string::npos);
+  EXPECT_NE(table.find(",not shown,"), std::string::npos);
+  EXPECT_FALSE(case_result(SweepRun(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("other")),
+                           run.sweep().cases[0])
+                   .verdict)
+      << "nothing is known there";
+}
+
 // Stresses are those of grade 1 times the grade (theory.md): one simulation a replicate answers all of them.
 TEST_F(SweepTest, GradesCostNoSimulation) {
   const std::string text = sweep_text("[each]\nmaterial.grade = [2, 6, 0.5]\n", "replicates = 2\nbase = true");
