@@ -102,10 +102,6 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   sync_path(folder_of(target));
 }
 
-void copy_file(const std::filesystem::path& from, const std::filesystem::path& to) {
-  write_file(to, read_file(from));
-}
-
 void make_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

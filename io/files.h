@@ -28,8 +28,6 @@ bool write_all(int descriptor, std::string_view text);
 /// than regular files are not replaced, and what killed processes left of earlier tries is removed. Throws
 /// SurroundingsError; then nothing of the new file is left and an older one is as it was.
 void write_file(const std::filesystem::path& path, std::string_view text);
-/// The same with the content of another file.
-void copy_file(const std::filesystem::path& from, const std::filesystem::path& to);
 /// The folder and those above it. Throws SurroundingsError.
 void make_folders(const std::filesystem::path& folder);
 /// Removes a file, where a symbolic link leads and not the link; nothing happens where there is none. Throws
