@@ -56,7 +56,7 @@ FORMATS = {
     "checkpoint": ("out/u.part/checkpoint*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001 --resume"], True),
     "frame": ("out/u.part/frames/*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001 --resume"], True),
     "history": ("out/sweep/histories/*.h5", ["sweep sweep.toml -o out/sweep --workers 1 --resume"], True),
-    "journal": ("out/sweep/journal.jsonl", ["sweep sweep.toml -o out/sweep --workers 1 --resume", "show out/sweep"], True),
+    "journal": ("out/sweep/journal.jsonl", ["sweep sweep.toml -o out/sweep --workers 1 --resume"], True),
     "design": ("d.toml", ["check d.toml"], False),
     "sweep file": ("sweep.toml", ["check sweep.toml"], False),
     "study file": ("study.toml", ["check study.toml"], False),
