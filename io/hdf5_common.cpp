@@ -19,6 +19,8 @@ std::unique_lock<std::recursive_mutex> hdf5_lock() {
 
 void end_without_hdf5() {
   H5dont_atexit();
+  // Without lists of free blocks: HDF5 clears them when memory runs out, which corrupts the heap in 1.10.8.
+  H5set_free_list_limits(0, 0, 0, 0, 0, 0);
 }
 
 Hdf5Handle string_type() {

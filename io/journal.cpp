@@ -46,6 +46,7 @@ std::size_t read_events(std::string_view text, const std::string& file, std::vec
 
 int open_to_append(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0 && (errno == ENOSPC || errno == EDQUOT || errno == EIO)) fail_writing(path, errno);
   if (descriptor < 0)
     throw InputError({path.string(), 0, ""}, "cannot be opened: " + std::generic_category().message(errno), "",
                      "check that its folder exists and is writable");

@@ -119,12 +119,12 @@ def hdf5_content(path):
     return content
 
 
-def results(folder):
-    """What the files of a folder say, times aside, by their names."""
+def results(folder, left_out=()):
+    """What the files of a folder say, times aside, by their names; those in `left_out` are not looked at."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
-        if path.is_dir() or path.name.endswith(".lock"):
+        if path.is_dir() or path.name.endswith(".lock") or name in left_out:
             continue
         if path.suffix == ".json":
             found[name] = without_times(json.loads(path.read_text()))

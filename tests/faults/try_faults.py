@@ -29,7 +29,7 @@ from tiny_work import is_whole, make_inputs, results
 
 # name: (arguments, how it is done again)
 COMMANDS = {
-    "evaluate": ("evaluate d.toml -o out/r.h5 --threads 1 --set output.checkpoint_interval=0.001", "--resume"),
+    "evaluate": ("evaluate d.toml -o out/r.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001", "--resume"),
     "pack": ("pack d.toml -o out/p.h5 --threads 1", "--force"),
     "elastic": ("evaluate d.toml --elastic -o out/e.h5 --threads 1", "--force"),
     "test": ("test d.toml -o out/t.h5 --threads 1", "--force"),

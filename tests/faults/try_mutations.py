@@ -45,7 +45,7 @@ MADE = [
     "evaluate d.toml --elastic -o out/e.h5 --threads 1",
     "test d.toml -o out/t.h5 --threads 1",
     "sweep sweep.toml -o out/sweep --workers 1",
-    "evaluate d.toml -o out/u.h5 --threads 1 --set output.checkpoint_interval=0.001 --wall-time 0.01",
+    "evaluate d.toml -o out/u.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001 --wall-time 0.0001",
 ]
 # format: (files that are damaged, what is done with them, whether other results count)
 FORMATS = {
@@ -53,10 +53,10 @@ FORMATS = {
     "packing": ("out/p.h5", ["evaluate d.toml --packing out/p.h5 -o out/x.h5 --threads 1 --force"], True),
     "elastic": ("out/e.h5", ["plot out/e.h5 -o out/x.svg --force"], True),
     "material test": ("out/t.h5", ["plot out/t.h5 -o out/x.svg --force"], True),
-    "checkpoint": ("out/u.part/checkpoint*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --resume"], True),
-    "frame": ("out/u.part/frames/*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --resume"], True),
+    "checkpoint": ("out/u.part/checkpoint*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001 --resume"], True),
+    "frame": ("out/u.part/frames/*.h5", ["evaluate d.toml -o out/u.h5 --threads 1 --until 0.005 --set output.checkpoint_interval=0.001 --resume"], True),
     "history": ("out/sweep/histories/*.h5", ["sweep sweep.toml -o out/sweep --workers 1 --resume"], True),
-    "journal": ("out/sweep/journal.jsonl", ["sweep sweep.toml -o out/sweep --workers 1 --resume", "show out/sweep"], True),
+    "journal": ("out/sweep/journal.jsonl", ["sweep sweep.toml -o out/sweep --workers 1 --resume"], True),
     "design": ("d.toml", ["check d.toml"], False),
     "sweep file": ("sweep.toml", ["check sweep.toml"], False),
     "study file": ("study.toml", ["check study.toml"], False),
@@ -114,19 +114,18 @@ class Trial:
                 raise SystemExit(f"{command}: exit {code}: {error}")
         return whole
 
-    def outcome(self, folder, commands, before):
-        """Exit codes, what was printed, and the files that came out, times aside."""
+    def outcome(self, folder, commands, left_out):
+        """Exit codes, what was printed (by `show`: others print times), and the files that came out, times aside."""
         codes, printed = [], []
         for command in commands:
             code, output, error = self.run(folder, command)
             codes.append(code)
-            printed.append(output)
+            printed.append(output if command.startswith("show") else None)
             if code == 1 and len([line for line in error.splitlines() if "error" in line]) != 1:
                 return [f"says {error!r}"], None
             if code != 0:
                 return codes, None
-        made = {name: what for name, what in results(folder / "out").items() if name not in before}
-        return codes, (printed, made)
+        return codes, (printed, results(folder / "out", left_out))
 
     def format(self, name, count, dice):
         pattern, commands, exact = FORMATS[name]
@@ -135,7 +134,8 @@ class Trial:
         if not targets:
             raise SystemExit(f"{name}: no file {pattern}")
         # what was there before is no result; what the damaged file is part of may be written anew
-        kept = {k for k in results(whole / "out") if not k.startswith(("sweep/", "u."))}
+        names = [str(path.relative_to(whole / "out")) for path in (whole / "out").rglob("*")]
+        kept = {k for k in names if not k.startswith(("sweep/", "u."))} | {t.removeprefix("out/") for t in targets}
         folder = self.work / "try"
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(whole, folder)
@@ -144,7 +144,6 @@ class Trial:
             self.faults.append(f"{name}: undamaged: {codes}")
             print("FAULT", self.faults[-1])
             return
-        ignored = set(targets) | {target.removeprefix("out/") for target in targets}
         for number in range(count):
             shutil.rmtree(folder, ignore_errors=True)
             shutil.copytree(whole, folder)
@@ -154,11 +153,8 @@ class Trial:
             codes, found = self.outcome(folder, commands, kept)
             verdict = "refused" if codes[-1] == 1 else "same" if codes[-1] == 0 else "fault"
             if codes[-1] == 0 and exact:
-                wanted_files = {k: v for k, v in wanted[1].items() if k not in ignored}
-                found_files = {k: v for k, v in found[1].items() if k not in ignored}
-                if found[0] != wanted[0] or found_files != wanted_files:
-                    different = [k for k in set(wanted_files) | set(found_files)
-                                 if wanted_files.get(k) != found_files.get(k)]
+                if found != wanted:
+                    different = [k for k in set(wanted[1]) | set(found[1]) if wanted[1].get(k) != found[1].get(k)]
                     codes, verdict = [f"other results in {different or 'what is printed'}"], "fault"
             elif codes[-1] == 0:
                 verdict = "accepted"
