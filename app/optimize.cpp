@@ -35,9 +35,8 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.force = flags.common.force;
   options.command_line = command_line();
   options.cancellation = stop_token();
-  options.make_executor =
-      worker_executor(flags.workers, study.keys.execution, optimize::useful_workers(study, flags.workers.workers),
-                      flags.common.thread_count());
+  options.make_executor = worker_executor(flags.workers, study.keys.execution,
+                                          optimize::useful_workers(study, flags.workers.workers), flags.common);
   return options;
 }
 

@@ -31,8 +31,8 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.command_line = command_line();
   options.keep_run_files = sweep.keys.run_files;
   options.cancellation = stop_token();
-  options.make_executor = worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers),
-                                          flags.common.thread_count());
+  options.make_executor =
+      worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers), flags.common);
   return options;
 }
 

@@ -71,10 +71,11 @@ class Lines {
 
 /// What the worker says for a request, and whether it was told to stop. A design that this program cannot read is a
 /// failed evaluation like one that cannot be evaluated; what is not the design's fault is a trouble.
-std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads) {
+std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads, double memory) {
   const auto trouble = [](const std::string& text) { return std::pair{nlohmann::json{{"trouble", text}}, false}; };
   try {
-    const auto evaluation = optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token());
+    const auto evaluation =
+        optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token(), memory);
     return {results::to_json(evaluation, true), evaluation.status == results::RunStatus::stopped};
   } catch (const io::InputError& error) {
     return {results::to_json(optimize::failed_evaluation(error.what(), record.at("replicate").get<int>()), true),
@@ -88,13 +89,13 @@ std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads
   }
 }
 
-int work(int threads) {
+int work(int threads, double memory) {
   Lines lines;
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
     lines.begin();
-    const auto [said, stopped] = answer(nlohmann::json::parse(line), threads);
+    const auto [said, stopped] = answer(nlohmann::json::parse(line), threads, memory);
     lines.end(said);
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.
@@ -111,7 +112,7 @@ void add_worker(CLI::App& program, int& exit_code) {
   add_common_flags(*command, *flags, Uses::files_only);
   command->callback([flags, &exit_code] {
     flags->apply();
-    exit_code = work(flags->thread_count(1));
+    exit_code = work(flags->thread_count(1), flags->memory_allowed());
   });
 }
 

@@ -2,11 +2,8 @@
 // such work.
 #include "app/workers.h"
 
-#include "app/common.h"
-
 #include <fmt/format.h>
 
-#include "app/common.h"
 #include "io/progress.h"
 
 namespace perfora::app {
@@ -35,9 +32,10 @@ void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& 
 
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
                                                                      const optimize::ExecutionKeys& of_file,
-                                                                     int workers, int threads) {
-  return optimize::worker_processes(std::filesystem::read_symlink("/proc/self/exe"), workers, threads,
-                                    flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit);
+                                                                     int workers, const CommonFlags& common) {
+  return optimize::worker_processes({std::filesystem::read_symlink("/proc/self/exe"), workers, common.thread_count(),
+                                     flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit,
+                                     common.memory_allowed()});
 }
 
 int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/common.h"
 #include "optimize/campaign/execution.h"
 #include "optimize/campaign/executor.h"
 
@@ -24,11 +25,11 @@ void add_workers_flag(CLI::App& command, int& workers, const std::string& what);
 /// Both flags.
 void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& what);
 
-/// Makes an executor of `workers` child processes that share `threads` threads. `of_file`: what the file says where the
-/// flags do not.
+/// Makes an executor of `workers` child processes that share the threads and the memory of `common`. `of_file`: what
+/// the file says where the flags do not.
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
                                                                      const optimize::ExecutionKeys& of_file,
-                                                                     int workers, int threads);
+                                                                     int workers, const CommonFlags& common);
 
 /// Tells of work that has stopped in its folder, and what the surroundings did where they ended it; the exit code.
 int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/memory.h"
 #include "optimize/campaign/ensemble.h"
 #include "optimize/campaign/sweep_run.h"
 #include "optimize/search/calibration_run.h"
@@ -36,7 +37,8 @@ std::function<std::unique_ptr<optimize::Executor>()> executor(const CampaignOpti
                                                               const io::Cancellation& token) {
   const int threads = thread_count(options.threads);
   if (!options.program.empty())
-    return optimize::worker_processes(options.program, workers, threads, of_file.time_limit);
+    return optimize::worker_processes(
+        {options.program, workers, threads, of_file.time_limit, io::usable_memory_bytes()});
   return [=, each = std::max(1, threads / workers)] {
     return optimize::make_in_process_executor(
         [each, token](const optimize::Request& request) { return optimize::evaluate_request(request, each, token); },

@@ -36,14 +36,16 @@ struct Inside {
   static Design design(optimize::DesignFile file);
 };
 
-/// Does `work`; what the rooms throw about something given to them comes out as Error. The library prints nothing but
-/// warnings.
+/// Does `work`; what the rooms throw about something given to them, or about the surroundings, comes out as Error. The
+/// library prints nothing but warnings.
 template <class Work>
 auto at_boundary(Work&& work) {
   io::set_verbosity(io::Verbosity::quiet);
   try {
     return std::forward<Work>(work)();
   } catch (const io::InputError& error) {
+    throw Error(error.what());
+  } catch (const io::SurroundingsError& error) {
     throw Error(error.what());
   } catch (const nlohmann::json::exception& error) {
     throw Error(std::string("damaged record: ") + error.what());

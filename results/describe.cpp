@@ -42,10 +42,15 @@ std::string describe_checkpoint(const io::Hdf5Reader& file) {
   if (file.has_attribute("/", "strain"))
     text += line("strain", io::quantity(file.attribute_double("/", "strain"), io::Dimension::ratio));
   if (file.has_attribute("/", "steps")) text += line("steps", io::count(file.attribute_int("/", "steps")));
-  if (file.has("/discs/radius")) text += line("discs", io::count(file.shape("/discs/radius").at(0)));
-  if (file.has("/bonds/damage")) text += line("bonds", io::count(file.shape("/bonds/damage").at(0)));
-  if (file.has("/history/strain_yy"))
-    text += line("rows of history", io::count(file.shape("/history/strain_yy").at(0)));
+  // Up to perfora.checkpoint/4 these stood elsewhere; such files are shown, not gone on from.
+  const auto length = [&](const char* name, std::initializer_list<const char*> places) {
+    for (const char* place : places)
+      if (file.has(place)) return line(name, io::count(file.shape(place).at(0)));
+    return std::string();
+  };
+  text += length("discs", {"/simulation/discs/radius", "/discs/radius"});
+  text += length("bonds", {"/simulation/damage", "/bonds/damage"});
+  text += length("rows of history", {"/run/history/strain_yy", "/history/strain_yy"});
   return text;
 }
 
@@ -145,7 +150,7 @@ std::string describe_toml(const std::filesystem::path& path) {
 
 std::string describe_folder(const std::filesystem::path& folder) {
   std::string text;
-  for (const char* name : {"journal.jsonl", "checkpoint.h5"})
+  for (const char* name : {"journal.jsonl", "checkpoint.h5", "checkpoint-2.h5"})
     if (std::filesystem::exists(folder / name)) text += describe_file(folder / name);
   if (text.empty()) refuse(folder, "the folder holds no journal, checkpoint or result");
   return text;

@@ -10,7 +10,7 @@ inline constexpr const char* pack_format = "perfora.pack/1";
 inline constexpr const char* material_format = "perfora.test/1";
 inline constexpr const char* elastic_format = "perfora.elastic/1";
 inline constexpr const char* history_format = "perfora.history/1";
-inline constexpr const char* checkpoint_format = "perfora.checkpoint/4";
+inline constexpr const char* checkpoint_format = "perfora.checkpoint/5";
 // JSON, key `schema`; packings, material tests and elastic responses have the names of their files.
 inline constexpr const char* evaluation_schema = "perfora.evaluate/1";
 inline constexpr const char* ensemble_schema = "perfora.ensemble/1";

@@ -113,14 +113,17 @@ std::string reached_text(double strain) {
   return fmt::format("reached strain {:.6g}", strain);
 }
 
+double energy_sum(const History& history, std::size_t row) {
+  return history.elastic_bonds[row] + history.elastic_contacts[row] + history.kinetic[row] + history.damage[row] +
+         history.friction[row] + history.viscous[row] + history.cundall[row];
+}
+
 double energy_residual(const History& history, double from_strain) {
   double largest_work = 0.0, worst = 0.0;
   for (std::size_t k = 0; k < history.rows(); ++k) {
     largest_work = std::max(largest_work, std::fabs(history.external_work[k]));
-    const double sum = history.elastic_bonds[k] + history.elastic_contacts[k] + history.kinetic[k] + history.damage[k] +
-                       history.friction[k] + history.viscous[k] + history.cundall[k];
     if (history.strain_yy[k] >= from_strain && largest_work > 0.0)
-      worst = std::max(worst, std::fabs(history.external_work[k] - sum) / largest_work);
+      worst = std::max(worst, std::fabs(history.external_work[k] - energy_sum(history, k)) / largest_work);
   }
   return worst;
 }

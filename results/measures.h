@@ -20,6 +20,9 @@ inline constexpr double residual_from_strain = 0.002;
 /// Why a completed run ended: "reached strain 0.6".
 std::string reached_text(double strain);
 
+/// All energies of a row, J per metre of depth: what the external work went into.
+double energy_sum(const History& history, std::size_t row);
+
 /// Largest |external work - sum of all energies| over the rows so far, over the largest work so far; rows before
 /// `from_strain` are left out.
 double energy_residual(const History& history, double from_strain);

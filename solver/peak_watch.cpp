@@ -15,18 +15,18 @@ bool PeakWatch::ends_piece(double stress, double width, double at) {
   work += stress * width;
   strain += width;
   if (strain < (1.0 - rounding) * piece) return false;
-  last_ = work / strain;
-  last_at_ = at;
+  last = work / strain;
+  last_at = at;
   work = strain = 0.0;
-  if (last_ > largest) {
-    largest = last_;
+  if (last > largest) {
+    largest = last;
     largest_at = at;
   }
   return true;
 }
 
 bool PeakWatch::passed(double estimated_strain) const {
-  return last_at_ > least_strain && last_ < passed_ratio * largest && largest_at < latest_peak * estimated_strain;
+  return last_at > least_strain && last < passed_ratio * largest && largest_at < latest_peak * estimated_strain;
 }
 
 }  // namespace perfora::solver

@@ -7,9 +7,10 @@ namespace perfora::solver {
 /// Looks at the mean stress over pieces of strain, the same for every run whatever it writes. Plain numbers, so that a
 /// checkpoint holds them.
 struct PeakWatch {
-  double work = 0.0, strain = 0.0;  ///< of the present piece so far: stress times strain, Pa; strain
-  double largest = 0.0;             ///< largest mean of a piece, Pa
-  double largest_at = 0.0;          ///< engineering strain at its end
+  double work = 0.0, strain = 0.0;   ///< of the present piece so far: stress times strain, Pa; strain
+  double largest = 0.0;              ///< largest mean of a piece, Pa
+  double largest_at = 0.0;           ///< engineering strain at its end
+  double last = 0.0, last_at = 0.0;  ///< mean of the last piece, Pa, and the strain at its end
 
   /// Pieces are at least this long in strain.
   static constexpr double piece = 5e-4;
@@ -20,10 +21,6 @@ struct PeakWatch {
   /// After a piece: whether the stress has fallen so far below the largest that the first peak is behind.
   /// `estimated_strain`: of the first peak; a fall from a maximum far beyond it is a serration of the rubble.
   bool passed(double estimated_strain) const;
-  double last() const { return last_; }  ///< mean stress of the last piece, Pa
-
- private:
-  double last_ = 0.0, last_at_ = 0.0;  // mean and end of the last piece
 };
 
 }  // namespace perfora::solver

@@ -12,20 +12,20 @@
 #include <optional>
 #include <utility>
 
-#include "io/files.h"
 #include "io/memory.h"
 #include "io/progress.h"
 #include "io/text.h"
 #include "results/grade.h"
 #include "results/measures.h"
 #include "results/run_file.h"
-#include "solver/checkpoint.h"
+#include "solver/energy_watch.h"
 #include "solver/frame.h"
 #include "solver/grade.h"
 #include "solver/run_folder.h"
 #include "solver/run_setup.h"
 #include "solver/samples.h"
 #include "solver/simulation.h"
+#include "solver/thread_choice.h"
 
 namespace perfora::solver {
 namespace {
@@ -64,7 +64,8 @@ class Run {
         setup_(set_up_run(request)),
         folder_(request.run_file),
         original_bonds_(count_bonds_per_disc(setup_.network, request.clipped->x.size())),
-        frame_strains_(frame_strains(request.options.output, request.options.loading.until)) {
+        frame_strains_(frame_strains(request.options.output, request.options.loading.until)),
+        thread_choice_(request.options.dynamics.kernel == KernelChoice::reference ? 1 : request.threads) {
     const StrengthStatistics strength = strength_statistics(setup_.network);
     results::Summary& summary = response_.summary;
     summary.noise_mean = strength.mean;
@@ -113,19 +114,19 @@ class Run {
   void start() {
     started_ = last_checkpoint_ = Clock::now();
     if (writes()) {
-      if (request_.resume && folder_.can_resume(identity(), request_.in_names_of_today)) {
-        progress_ = read_checkpoint(folder_.checkpoint_file(), *simulation_);
+      if (request_.resume && folder_.holds_checkpoint()) {
+        progress_ = folder_.resume(*simulation_, identity(), request_.in_names_of_today);
         io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
       } else {
-        folder_.start_afresh(identity());
+        folder_.start_afresh();
       }
     }
     first_step_ = simulation_->steps();
     first_bond_steps_ = simulation_->bond_steps();
     earlier_seconds_ = progress_.seconds;
     const bool fresh = progress_.history.rows() == 0;
-    samples_.emplace(progress_.history, request_.options.output.history_interval, request_.options.loading.until,
-                     request_.mean_diameter);
+    samples_.emplace(progress_.history, progress_.centred_rows, request_.options.output.history_interval,
+                     request_.options.loading.until, request_.mean_diameter);
     samples_->start(*simulation_);
     while (next_frame() <= simulation_->strain()) ++next_frame_;
     const auto& strains = request_.options.output.frame_strains;
@@ -141,7 +142,8 @@ class Run {
   void loop() {
     while (!at_end(setup_.plan, simulation_->loading())) {
       simulation_->step();
-      samples_->after_step(*simulation_);
+      if (thread_choice_.after_step(seconds_since(started_))) simulation_->set_threads(thread_choice_.threads());
+      if (samples_->after_step(*simulation_) && !energies_close()) return;
       const double next = next_frame();
       if (wants_frames() && simulation_->strain() >= next) keep_due_frame();
       const LoadingState& path = simulation_->loading();
@@ -159,7 +161,10 @@ class Run {
     if (looking && path.segment_stress > progress_.peak_frame_stress) {
       progress_.peak_frame_stress = path.segment_stress;
       progress_.peak_frame_strain = path.begin;
-      if (wants_peak_frame()) peak_frame_ = frame_now();
+      if (wants_peak_frame()) {
+        peak_frame_ = frame_now();
+        progress_.peak_frame_step = simulation_->steps();
+      }
     }
     if (!watch.ends_piece(path.segment_stress, path.begin - path.last_begin, path.begin)) return true;
     if (failed()) return false;
@@ -176,7 +181,6 @@ class Run {
       return;
     }
     simulation_->freeze_peak();
-    if (wants_peak_frame()) keep_peak_frame();
   }
 
   /// At the clock, the request to stop and the checkpoint; true: stop here.
@@ -193,8 +197,8 @@ class Run {
     }
     if (writes() && (stopping || seconds_since(last_checkpoint_) > request_.options.output.checkpoint_interval)) {
       progress_.seconds = earlier_seconds_ + now;
-      if (peak_frame_) results::write_frame(folder_.peak_frame_file(), *peak_frame_);  // first: see keep_peak_frame()
-      write_checkpoint(folder_.checkpoint_file(), *simulation_, progress_);
+      write_peak_frame();  // first: a frame that a checkpoint names is there
+      folder_.write_checkpoint(*simulation_, progress_, identity());
       last_checkpoint_ = Clock::now();
     }
     if (stopping) {
@@ -207,7 +211,7 @@ class Run {
   void report() const {
     const double elapsed = seconds_since(started_);
     const double rate = elapsed > 0.0 ? static_cast<double>(simulation_->steps() - first_step_) / elapsed : 0.0;
-    const double strain = path_strain(simulation_->loading()), stress = grade_.stress * progress_.watch.last();
+    const double strain = path_strain(simulation_->loading()), stress = grade_.stress * progress_.watch.last;
     request_.progress({strain / request_.options.loading.until,
                        fmt::format("strain {:.2f} %, stress {}, {} steps/s", 100.0 * strain,
                                    io::quantity(stress, io::Dimension::stress), io::count(rate)),
@@ -232,26 +236,50 @@ class Run {
   }
 
   void keep_frame(const results::Frame& frame) {
-    results::write_frame(folder_.frame_file(static_cast<int>(progress_.frame_strains.size())), frame);
+    results::write_frame(folder_.frame_file(simulation_->steps()), frame);
     progress_.frame_strains.push_back(frame.info.strain);
+    progress_.frame_steps.push_back(simulation_->steps());
   }
 
   bool wants_peak_frame() const { return wants_frames() && request_.options.output.frame_strains.empty(); }
 
-  /// The peak is known only when it is behind; its frame was kept aside when the stress was largest. A resumed run
-  /// finds it in the folder: written before each checkpoint, it is never older than the state, and a run that goes on
-  /// from an older state meets the larger stresses again.
-  void keep_peak_frame() {
-    if (peak_frame_) results::write_frame(folder_.peak_frame_file(), *peak_frame_);
-    if (!std::filesystem::exists(folder_.peak_frame_file())) return;
-    std::vector<double>& kept = progress_.frame_strains;
-    const auto place = std::upper_bound(kept.begin(), kept.end(), progress_.peak_frame_strain);
-    const auto number = static_cast<int>(place - kept.begin());
-    for (int k = static_cast<int>(kept.size()); k > number; --k)
-      io::copy_file(folder_.frame_file(k - 1), folder_.frame_file(k));
-    io::copy_file(folder_.peak_frame_file(), folder_.frame_file(number));
-    kept.insert(place, progress_.peak_frame_strain);
+  /// The peak is known only when it is behind: its frame is kept aside whenever the stress is the largest so far.
+  void write_peak_frame() {
+    if (peak_frame_) results::write_frame(folder_.frame_file(progress_.peak_frame_step), *peak_frame_);
     peak_frame_.reset();
+  }
+
+  /// By rising strain, that of the peak among them once it is known. One that cannot be read any more is left out with
+  /// a warning: the run is worth more than one of its frames.
+  std::vector<std::filesystem::path> frame_files() {
+    write_peak_frame();
+    std::vector<double> strains = progress_.frame_strains;
+    std::vector<std::int64_t> steps = progress_.frame_steps;
+    if (simulation_->peak_frozen() && progress_.peak_frame_step > 0) {
+      const auto place = std::upper_bound(strains.begin(), strains.end(), progress_.peak_frame_strain);
+      steps.insert(steps.begin() + (place - strains.begin()), progress_.peak_frame_step);
+    }
+    std::vector<std::filesystem::path> files;
+    for (const std::int64_t step : steps) {
+      const std::string problem = folder_.frame_problem(step, simulation_->discs().size());
+      if (problem.empty())
+        files.push_back(folder_.frame_file(step));
+      else
+        io::log_warning(fmt::format("a frame is lost: {}; the run is written without it", problem));
+    }
+    return files;
+  }
+
+  /// Of the samples since the last call; false: the run has failed.
+  bool energies_close() {
+    const double residual = energies_.residual(progress_.history);
+    if (residual <= largest_residual) return true;
+    response_.summary.status = results::RunStatus::failed;
+    response_.summary.reason = fmt::format(
+        "energy residual {} at strain {:.4f}: the step is too long or the block is loaded too fast; lower "
+        "dynamics.step_factor, or loading.rate where it is set",
+        io::quantity(residual, io::Dimension::ratio), simulation_->strain());
+    return false;
   }
 
   bool failed() {
@@ -308,8 +336,7 @@ class Run {
     p.peak_memory = io::peak_memory_bytes();
     response_.history = std::move(h);
     if (!writes()) return;
-    results::write_run(request_.run_file, record(),
-                       folder_.frame_files(static_cast<int>(progress_.frame_strains.size())), request_.periodic);
+    results::write_run(request_.run_file, record(), frame_files(), request_.periodic);
     if (s.status != results::RunStatus::stopped) folder_.remove();  // a stopped run can be resumed from it
   }
 
@@ -352,6 +379,8 @@ class Run {
   std::optional<Simulation> simulation_;
   RunProgress progress_;
   std::optional<Samples> samples_;
+  EnergyWatch energies_;
+  ThreadChoice thread_choice_;
   Response response_;
   std::optional<results::Frame> peak_frame_;  // at the largest mean stress of a segment so far
   Clock::time_point started_, last_checkpoint_;

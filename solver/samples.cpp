@@ -30,19 +30,27 @@ void each_pressure(results::History& h, const Walls& walls, const Put& put) {
 
 }  // namespace
 
-Samples::Samples(results::History& history, double interval, double until, double mean_diameter)
-    : history_(history), interval_(interval), until_(until), mean_diameter_(mean_diameter) {
-  if (history_.rows() > 0) plan_next(history_.strain_yy.back());
+Samples::Samples(results::History& history, std::int64_t& centred_rows, double interval, double until,
+                 double mean_diameter)
+    : history_(history),
+      centred_rows_(centred_rows),
+      interval_(interval),
+      until_(until),
+      mean_diameter_(mean_diameter) {
+  if (history_.rows() == 0) return;
+  plan_next(history_.strain_yy.back());
+  if (centred_rows_ == static_cast<std::int64_t>(history_.rows())) wait_for_sample();
 }
 
 void Samples::start(Simulation& simulation) {
-  if (history_.rows() == 0) {
-    add(simulation);
-    plan_next(simulation.strain());
-  } else if (simulation.strain() >= half_) {
-    half_ = never;
-    next_ = sample_;
-  }
+  if (history_.rows() > 0) return;
+  add(simulation);
+  plan_next(simulation.strain());
+}
+
+void Samples::wait_for_sample() {
+  half_ = never;
+  next_ = sample_;
 }
 
 void Samples::plan_next(double strain) {
@@ -60,8 +68,7 @@ void Samples::plan_next(double strain) {
 void Samples::take(Simulation& simulation) {
   if (simulation.strain() >= half_) {
     centre(simulation);
-    half_ = never;
-    next_ = sample_;
+    wait_for_sample();
   }
   if (simulation.strain() < sample_) return;
   add(simulation);
@@ -75,6 +82,7 @@ void Samples::centre(Simulation& simulation) {
     each_pressure(history_, simulation.walls(), [](std::vector<double>& column, double p) { column.back() = p; });
   }
   simulation.reset_row();
+  centred_rows_ = static_cast<std::int64_t>(history_.rows());
 }
 
 void Samples::add(Simulation& simulation) {

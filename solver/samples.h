@@ -16,13 +16,16 @@ namespace perfora::solver {
 /// stopped, the mean reaches up to the sample only.
 class Samples {
  public:
-  /// `history`: of a run that goes on, otherwise empty. `mean_diameter`: m, what overlaps are stated in.
-  Samples(results::History& history, double interval, double until, double mean_diameter);
+  /// `history`: of a run that goes on, otherwise empty; `centred_rows`: its rows whose stresses are means up to their
+  /// far end. Both grow here. `mean_diameter`: m, what overlaps are stated in.
+  Samples(results::History& history, std::int64_t& centred_rows, double interval, double until, double mean_diameter);
   /// The sample at the start, unless the history has one.
   void start(Simulation& simulation);
-  /// To be called after every step: cheap where nothing is due.
-  void after_step(Simulation& simulation) {
-    if (simulation.strain() >= next_) take(simulation);
+  /// To be called after every step: cheap where nothing is due. Returns whether something was.
+  bool after_step(Simulation& simulation) {
+    if (simulation.strain() < next_) return false;
+    take(simulation);
+    return true;
   }
   /// Fragments of the bonds as they are now, found anew only where bonds have broken since.
   const Fragments& fragments(const Simulation& simulation);
@@ -35,8 +38,10 @@ class Samples {
   void add_ends(const Simulation& simulation);
   void centre(Simulation& simulation);
   void plan_next(double strain);
+  void wait_for_sample();
 
   results::History& history_;
+  std::int64_t& centred_rows_;
   double interval_, until_, mean_diameter_;
   double half_ = 0.0;    ///< strain at which the last sample's mean ends
   double sample_ = 0.0;  ///< strain of the next sample

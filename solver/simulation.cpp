@@ -178,6 +178,11 @@ void Simulation::step() {
   compact_when_due();
 }
 
+void Simulation::set_threads(int threads) {
+  threads_ = std::max(1, threads);
+  backend_->set_threads(threads_);
+}
+
 void Simulation::account(const StepSums& sums, const CellMatrix& before) {
   Ledger& ledger = progress_.ledger;
   // Trapezoid of the cell's work over the step, with the virial at both ends: what the pair forces take up through the

@@ -50,6 +50,8 @@ class Simulation {
   explicit Simulation(SimulationInput input);
 
   void step();
+  /// Threads of the steps to come, at least 1; no bit depends on their number.
+  void set_threads(int threads);
 
   std::int64_t steps() const { return progress_.steps; }
   double time() const { return static_cast<double>(progress_.steps) * time_step_; }

@@ -66,9 +66,14 @@ struct ChildOptions {
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.
 std::unique_ptr<Executor> make_child_executor(ChildOptions options);
 
-/// Makes an executor of `workers` child processes of `program`, which is perfora, that share `threads` threads.
-/// `time_limit`: s, as in ChildOptions.
-std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
-                                                            int threads, double time_limit = 0.0);
+/// Child processes of perfora, and what they share.
+struct WorkerProcesses {
+  std::filesystem::path program;
+  int workers = 1;
+  int threads = 1;          ///< of all together
+  double time_limit = 0.0;  ///< s, as in ChildOptions
+  double memory = 0.0;      ///< bytes of all together: a worker refuses what takes more than its part; 0: no limit
+};
+std::function<std::unique_ptr<Executor>()> worker_processes(const WorkerProcesses& wanted);
 
 }  // namespace perfora::optimize

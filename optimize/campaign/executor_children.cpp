@@ -232,17 +232,18 @@ std::unique_ptr<Executor> make_child_executor(ChildOptions options) {
   return std::make_unique<ChildExecutor>(std::move(options));
 }
 
-std::function<std::unique_ptr<Executor>()> worker_processes(const std::filesystem::path& program, int workers,
-                                                            int threads, double time_limit) {
-  const int each = std::max(1, threads / workers);
-  return [program, workers, each, time_limit] {
+std::function<std::unique_ptr<Executor>()> worker_processes(const WorkerProcesses& wanted) {
+  return [wanted] {
     ChildOptions children;
-    children.command = {program.string(), "worker", "--quiet", "--threads", std::to_string(each)};
-    children.workers = workers;
-    children.threads = each;
-    children.time_limit = Seconds(time_limit);
-    io::log_info(
-        fmt::format("{} worker{} of {} thread{}", workers, workers == 1 ? "" : "s", each, each == 1 ? "" : "s"));
+    children.workers = wanted.workers;
+    children.threads = std::max(1, wanted.threads / wanted.workers);
+    children.command = {wanted.program.string(), "worker", "--quiet", "--threads", std::to_string(children.threads)};
+    if (wanted.memory > 0.0)
+      for (const std::string& text : {std::string("--memory"), fmt::format("{:.0f} B", wanted.memory / wanted.workers)})
+        children.command.push_back(text);
+    children.time_limit = Seconds(wanted.time_limit);
+    io::log_info(fmt::format("{} worker{} of {} thread{}", children.workers, children.workers == 1 ? "" : "s",
+                             children.threads, children.threads == 1 ? "" : "s"));
     return make_child_executor(std::move(children));
   };
 }

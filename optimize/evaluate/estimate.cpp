@@ -138,6 +138,10 @@ std::string memory_problem(const DesignFile& file, const DesignEstimate& estimat
                          : std::string("a packing of fewer discs"));
 }
 
+std::string memory_problem(const DesignFile& file, double allowed) {
+  return memory_problem(file, estimate_design(file, 1), allowed);
+}
+
 double characteristic_length(const solver::MaterialOptions& material, double mean_diameter) {
   if (material.characteristic_length > 0.0)
     return material.characteristic_length * mean_diameter / material.reference_mean_diameter;

@@ -36,6 +36,8 @@ std::vector<std::string> cost_warnings(const DesignEstimate& estimate);
 /// What is wrong with a run that would take more than `allowed` bytes of memory, with the diameter of discs that would
 /// fit; empty: nothing is.
 std::string memory_problem(const DesignFile& file, const DesignEstimate& estimate, double allowed);
+/// The same of a design that is not estimated yet.
+std::string memory_problem(const DesignFile& file, double allowed);
 
 /// E G/sigma_t^2 of the solid material with discs of this mean diameter, m: as measured
 /// (material.characteristic_length, which grows with the discs), or estimated as 13 <d> (horizon/3)^1.4, which tension

@@ -17,6 +17,7 @@
 #include "results/formats.h"
 #include "results/verdict.h"
 #include "solver/bond_network.h"
+#include "solver/run_folder.h"
 
 namespace perfora::optimize {
 
@@ -162,7 +163,7 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
 }
 
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading) {
-  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05;
+  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05, small_residual = 0.01;
   const results::Summary& s = evaluation.summary;
   std::vector<std::string> warnings;
   if (s.max_overlap_in_run > small_overlap)
@@ -170,6 +171,11 @@ std::vector<std::string> validity_warnings(const Evaluation& evaluation, const s
         fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
                     "discs can bear; take the stress of the last strains as a lower bound",
                     io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
+  if (s.energy_residual > small_residual)
+    warnings.push_back(fmt::format(
+        "the energies do not add up to the work by {} of it, beyond {}: the step is too long or the block is loaded "
+        "too fast; lower dynamics.step_factor, or loading.rate where it is set",
+        io::quantity(s.energy_residual, io::Dimension::ratio), io::quantity(small_residual, io::Dimension::ratio)));
   if (s.kinetic_ratio_at_peak > small_kinetic_fraction)
     warnings.push_back(fmt::format(
         "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
@@ -232,7 +238,10 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
 Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& options, int replicate) {
   const io::Cancellation::Attention attention = options.cancellation.attend();
   if (options.resume && !options.run_file.empty())
-    if (auto finished = finished_evaluation(design, options.run_file, replicate)) return std::move(*finished);
+    if (auto finished = finished_evaluation(design, options.run_file, replicate)) {
+      solver::RunFolder(options.run_file).remove();  // left by a kill after the run file was written
+      return std::move(*finished);
+    }
   const Seeds::Effective seeds = design.design().seeds.effective(replicate);
   PackedDesign packed;
   try {

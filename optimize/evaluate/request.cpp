@@ -9,7 +9,9 @@
 #include <boost/uuid/uuid_io.hpp>
 #include <string_view>
 
+#include "io/error.h"
 #include "io/text.h"
+#include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/material_tests.h"
 #include "solver/grade.h"
 
@@ -101,7 +103,7 @@ Request make_request(const DesignFile& design, int replicate, double until) {
   return request;
 }
 
-Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation) {
+Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation, double memory) {
   try {
     DesignFile design = DesignFile::of(*request.design, "request");
     if (!request.material_test.empty())
@@ -109,6 +111,8 @@ Evaluation evaluate_request(const Request& request, int threads, const io::Cance
                                     cancellation);
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
     static_cast<void>(design.validate());
+    if (const std::string problem = memory > 0.0 ? memory_problem(design, memory) : std::string(); !problem.empty())
+      throw io::SurroundingsError(problem + "; fewer --workers leave each more, --memory SIZE allows more");
     EvaluateOptions options;
     options.threads = threads;
     options.cancellation = cancellation;

@@ -55,7 +55,9 @@ using DesignTexts = std::map<std::string, std::shared_ptr<const Design>>;
 Request request_from_json(const nlohmann::json& record, DesignTexts* known = nullptr);
 
 /// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
-/// Evaluation with status `failed` and the reason, so that a search goes on.
-Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation = {});
+/// Evaluation with status `failed` and the reason, so that a search goes on. One that would take more than `memory`
+/// bytes (0: no limit) throws io::SurroundingsError: on a larger machine it is an evaluation like any other.
+Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation = {},
+                            double memory = 0.0);
 
 }  // namespace perfora::optimize

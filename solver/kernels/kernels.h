@@ -44,6 +44,8 @@ class ForceBackend {
   /// Brings the histories of the contacts in the near pairs up to date: to be called before anybody reads them.
   virtual void export_contact_history(NeighbourList& neighbour_list) const = 0;
   virtual StepSums forces(ForceStep& step) = 0;
+  /// Of the steps to come; the same bits for every number. The reference backend has one.
+  virtual void set_threads(int threads) = 0;
   /// Instruction set it runs with, for the record.
   virtual std::string simd() const = 0;
 };

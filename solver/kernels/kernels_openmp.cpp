@@ -168,6 +168,10 @@ class OpenmpBackend final : public ForceBackend {
     return kernels_.name;
   }
 
+  void set_threads(int threads) override {
+    threads_ = threads;
+  }
+
  private:
   /// One step of the record's x, m.
   static double unit_of(const CellMatrix& cell, const DiscState& discs) {

@@ -29,6 +29,7 @@ class ReferenceBackend final : public ForceBackend {
   void load(const BondNetwork&, const DiscState&, const CellMatrix&) override {}
   void set_neighbours(const NeighbourList&, const DiscState&) override {}
   void export_contact_history(NeighbourList&) const override {}
+  void set_threads(int) override {}
 
   StepSums forces(ForceStep& step) override {
     std::fill(step.discs.fx.begin(), step.discs.fx.end(), 0.0);

@@ -286,6 +286,14 @@ TEST_F(CommandLine, WhatTheMachineCannotDoIsRefusedBeforehand) {
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 3) << "the design and this test's own two texts";
   EXPECT_EQ(run("evaluate d.toml --quiet --memory \"1 GB\"").exit_code, 0);
+  // In a campaign it is this machine's trouble, not a result of the case: with enough memory the sweep goes on.
+  std::ofstream(folder_ / "s.toml") << "[sweep]\ndesign = \"d.toml\"\nreplicates = 1\n[each]\n"
+                                       "layout.diameter = [\"5 mm\"]\n";
+  refused = run("sweep s.toml -o s --memory \"2 MB\" --workers 2");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.error, HasSubstr("1 MB are allowed"));
+  EXPECT_EQ(read_text(folder_ / "s/journal.jsonl").find("\"event\":\"evaluation\""), std::string::npos);
+  EXPECT_EQ(run("sweep s.toml -o s --resume --quiet").exit_code, 0);
 }
 
 TEST_F(CommandLine, AnEstimateBeyondCountingIsAWarning) {

@@ -12,28 +12,31 @@ except ImportError:
 
 DESIGN = """title = "tiny"
 [cell]
-width = "12 mm"
-height = "12 mm"
+width = "11 mm"
+height = "11 mm"
 [layout]
 family = "square"
-diameter = "6 mm"
+diameter = "3 mm"
 rows = 1
 columns = 1
 [packing]
 mean_diameter = "1.0 mm"
-size_ratio = 2.0
+maximum_diameter = "1.9825 mm"
+size_ratio = 3.0
 solid_fraction = 0.719
 [material]
 horizon = 2.0
 [loading]
-until = "0.2 %"
-transits = 5
+until = "0.1 %"
+transits = 3
+[test]
+size = "11 mm"
 """
 SWEEP = """[sweep]
 design = "d.toml"
 replicates = 1
 [each]
-material.horizon = [2.0, 2.5]
+material.horizon = [2.0, 2.2]
 """
 STUDY = """[study]
 design = "d.toml"
@@ -42,9 +45,10 @@ maxeval = 3
 replicates = 1
 final_replicates = 1
 [target]
-first_peak_stress = "0.2 MPa"
+plateau_stress = "0.2 MPa"
+window = [0.0003, 0.0009]
 [variables]
-"layout.diameter" = ["4 mm", "7 mm"]
+"layout.diameter" = ["2 mm", "4 mm"]
 """
 CALIBRATE = """[calibrate]
 design = "d.toml"
@@ -52,10 +56,10 @@ young_modulus = "1 GPa"
 poisson_ratio = 0.2
 tensile_strength = "0.5 MPa"
 compressive_strength = "2 MPa"
-maxeval = 1
+maxeval = 3
 replicates = 1
 chart = false
-tolerance = 0.9
+tolerance = 0.5
 """
 INPUTS = {"d.toml": DESIGN, "sweep.toml": SWEEP, "study.toml": STUDY, "calibrate.toml": CALIBRATE}
 

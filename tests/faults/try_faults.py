@@ -12,7 +12,7 @@ Then one run fails call 1, the next call 2 and so on (with --every N each Nth of
   run to the last bit, and leaves nothing else behind.
 --stays keeps failing all calls from there on, as on a disk that stays full.
 
-Exit code 77 (CTest: skipped) where the library cannot be preloaded.
+Exit code 77 (CTest: skipped) where the library cannot be preloaded, as under the address sanitizer.
 """
 import argparse
 import collections
@@ -49,7 +49,7 @@ class Trial:
         self.faults, self.got_over, self.kinds = [], collections.Counter(), collections.Counter()
 
     def run(self, folder, arguments, at=0, shim=True):
-        environment = dict(os.environ, OMP_NUM_THREADS="1")
+        environment = dict(os.environ, OMP_NUM_THREADS="1", ASAN_OPTIONS="exitcode=99", UBSAN_OPTIONS="exitcode=99")
         self.count.write_bytes(bytes(8))
         log = self.work / "log"
         log.unlink(missing_ok=True)
@@ -145,8 +145,8 @@ def main():
     trial = Trial(parser.parse_args())
     try:
         folder = trial.fresh("input-of-plot")
-        code, _, calls, _ = trial.run(folder, COMMANDS["evaluate"][0].split())
-        if code == 0 and calls == 0 and trial.options.kind == "disk":
+        code, error, calls, _ = trial.run(folder, COMMANDS["evaluate"][0].split())
+        if "does not come first" in error or (code == 0 and calls == 0 and trial.options.kind == "disk"):
             print("the library is not preloaded here")
             return 77
         (folder / "out").rename(trial.work / "input")

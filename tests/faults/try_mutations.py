@@ -9,6 +9,7 @@ number there is another input; of these, crashes and hangs alone are looked for,
 """
 import argparse
 import collections
+import os
 import random
 import shutil
 import subprocess
@@ -91,11 +92,12 @@ class Trial:
     def __init__(self, program):
         self.program = Path(program).resolve()
         self.work = Path(tempfile.mkdtemp(prefix="perfora-mutations-"))
+        self.environment = dict(os.environ, ASAN_OPTIONS="exitcode=99", UBSAN_OPTIONS="exitcode=99")
         self.faults, self.counts = [], collections.defaultdict(collections.Counter)
 
     def run(self, folder, command):
         try:
-            done = subprocess.run([self.program, *command.split(), "--quiet"], cwd=folder, timeout=40,
+            done = subprocess.run([self.program, *command.split(), "--quiet"], cwd=folder, timeout=40, env=self.environment,
                                   stdin=subprocess.DEVNULL, capture_output=True)
             return done.returncode, done.stdout, done.stderr.decode(errors="replace")
         except subprocess.TimeoutExpired:

@@ -84,7 +84,7 @@ TEST(Version3, NothingOfItIsContinued) {
   EXPECT_THAT(work.run("evaluate block.toml -o run.h5 --resume --threads 1 --quiet").error,
               HasSubstr("holds a finished run of another design, strain, seed or program version"));
   EXPECT_THAT(work.run("evaluate block.toml -o unfinished.h5 --resume --threads 1 --quiet").error,
-              HasSubstr("the unfinished run there has another configuration"));
+              HasSubstr("not a checkpoint that this version of perfora can read"));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(Describe, CheckpointAndXdmfCompanion) {
   file.attribute("/", "format", std::string("perfora.checkpoint/1"));
   file.attribute("/", "strain", 0.123);
   file.attribute("/", "steps", std::int64_t{1234567});
-  file.dataset("/discs/radius", std::vector<double>(1000, 1e-3));
+  file.dataset("/simulation/discs/radius", std::vector<double>(1000, 1e-3));
   file.commit();
   EXPECT_THAT(describe_file(folder / "checkpoint.h5"),
               AllOf(HasSubstr("12.3 %"), HasSubstr("1,234,567"), HasSubstr("1,000"), HasSubstr("--resume")));

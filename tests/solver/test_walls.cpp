@@ -199,9 +199,9 @@ TEST(Walls, CheckpointGoesOnWithTheSameBits) {
         if (k == 650) straight.reset_row();
         straight.step();
       }
-      write_checkpoint(file, straight, RunProgress{});
+      write_checkpoint(file, {1, "", straight.snapshot(), {}});
       Simulation resumed = test::make_bounded(packing, options, pitch, 200.0);
-      (void)read_checkpoint(file, resumed);
+      resumed.restore(read_checkpoint(file, resumed).simulation);
       for (int k = 0; k < 700; ++k) {
         straight.step();
         resumed.step();
