@@ -50,14 +50,17 @@ class Lines {
   void end(const nlohmann::json& answer) {
     const std::lock_guard guard(mutex_);
     computing_ = false;
-    print_text(answer.dump() + "\n");
+    print_text(answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
 
  private:
   void tell() {
     std::unique_lock guard(mutex_);
-    while (!changed_.wait_for(guard, std::chrono::seconds(1), [this] { return ended_; }))
-      if (computing_) print_text("{\"alive\":true}\n");
+    try {
+      while (!changed_.wait_for(guard, std::chrono::seconds(1), [this] { return ended_; }))
+        if (computing_) print_text("{\"alive\":true}\n");
+    } catch (const io::SurroundingsError&) {  // Nobody listens; the answer will not arrive either.
+    }
   }
 
   std::mutex mutex_;

@@ -68,7 +68,9 @@ std::string start_of(pid_t pid) {
 /// A process that was killed and not yet collected by its parent does nothing any more, once its last thread is gone.
 bool has_ended(pid_t pid, const std::string& start) {
   const auto facts = process_facts(pid);
-  if (facts.size() <= place_of_start || facts[place_of_start] != start) return true;
+  // The facts of other users may be hidden; that there is such a process is not.
+  if (facts.size() <= place_of_start) return ::kill(pid, 0) != 0 && errno == ESRCH;
+  if (facts[place_of_start] != start) return true;
   if (facts[place_of_state] != "Z" && facts[place_of_state] != "X") return false;
   std::error_code ignored;
   return std::distance(fs::directory_iterator(fmt::format("/proc/{}/task", pid), ignored), {}) <= 1;

@@ -96,7 +96,7 @@ TEST_F(Lock, OfALivingOrStoppedProcessIsRespected) {
   renewed_before(100000);
   EXPECT_THAT(refusal(), HasSubstr("is in use by process " + std::to_string(child)));
   end(child);
-  OutputLock(output);
+  { const OutputLock held(output); }
   EXPECT_EQ(files(), 0U);
 }
 
