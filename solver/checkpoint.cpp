@@ -116,10 +116,12 @@ void write_checkpoint(const std::filesystem::path& path, Checkpoint checkpoint) 
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path, const Simulation& simulation) {
-  const io::Hdf5Reader file(path, io::Checksum::required);
+  const io::Hdf5Reader file(path);
   if (!file.has_attribute("/", "format") || file.attribute_text("/", "format") != results::checkpoint_format)
     throw io::InputError({path.string(), 0, "format"}, "this is not a checkpoint that this version of perfora can read",
                          std::string("allowed is ") + results::checkpoint_format);
+  if (!file.checked())
+    throw io::InputError({path.string(), 0, ""}, "has no checksum, so that damage would not be seen");
   Checkpoint checkpoint;
   Reading reading(file, "", simulation.discs().size());
   visit_members(reading, checkpoint);

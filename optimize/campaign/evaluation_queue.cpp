@@ -177,7 +177,7 @@ void EvaluationQueue::clean_folder() const {
   const fs::path runs = options_.folder / runs_folder, histories = options_.folder / histories_folder;
   std::vector<fs::path> left;  // by a kill after the journal's line, or of what is no longer asked
   for (const auto& entry : fs::directory_iterator(runs, ignored))
-    if (only_own_runs_ || entry.path().extension() == ".part") left.push_back(entry.path());
+    if ((only_own_runs_ && !options_.keep_run_files) || entry.path().extension() == ".part") left.push_back(entry.path());
   for (const auto& entry : fs::directory_iterator(histories, ignored)) {
     const auto [first, last] = answers_.of(entry.path().stem().string());
     if (first == last) left.push_back(entry.path());

@@ -1,75 +1,25 @@
 // What is here: the subcommands run as a user runs them: outputs, exit codes, JSON alone on standard output, signals,
-// resume. What is not: broken input (bad_input/). Expected: exit codes of the documentation, and agreement between runs
-// that must agree.
+// resume. What is not: broken input (bad_input/), what the machine cannot do (test_limits.cpp). Expected: exit codes of
+// the documentation, and agreement between runs that must agree.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
+#include "tests/app/command_line.h"
+
 namespace perfora::test {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output, error;
-};
-
-std::string read_text(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-class CommandLine : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = fs::temp_directory_path() / "perfora-command.XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    // One hole of 6 mm in 12 x 12 mm, some 380 discs, pressed fast and not far.
-    std::ofstream(folder_ / "d.toml") << "title = \"small\"\n[cell]\nwidth = \"12 mm\"\nheight = \"12 mm\"\n"
-                                         "[layout]\nfamily = \"square\"\nrows = 1\ncolumns = 1\ndiameter = \"6 mm\"\n"
-                                         "[packing]\nsolid_fraction = 0.719\n[loading]\nuntil = 0.01\nrate = 40\n"
-                                         "[measures]\nplateau_start = 0.002\nplateau_end = 0.008\n";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome run(const std::string& arguments) const {
-    const std::string line =
-        "cd '" + folder_.string() + "' && '" PERFORA_PROGRAM "' " + arguments + " > out.txt 2> err.txt";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder_ / "out.txt"),
-            read_text(folder_ / "err.txt")};
-  }
-  /// Without what depends on the clock.
-  static json comparable(const std::string& text) {
-    json record = json::parse(text);
-    record.erase("performance");
-    for (auto& one : record["runs"]) one.erase("performance");
-    return record;
-  }
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
   for (const std::string command :
@@ -273,36 +223,6 @@ TEST_F(CommandLine, CheckSaysWhatWouldRun) {
 
 // Two cases and the design, two replicates: tables, picture and run files appear; the same design alone gives the same
 // numbers; a finished sweep resumed with one more value runs only that.
-TEST_F(CommandLine, WhatTheMachineCannotDoIsRefusedBeforehand) {
-  Outcome refused = run("evaluate d.toml --threads 4096");
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.error, HasSubstr("4096 is outside 1 to"));
-  for (const char* command :
-       {"evaluate d.toml", "evaluate d.toml --replicates 2", "evaluate d.toml --elastic", "pack d.toml"}) {
-    refused = run(std::string(command) + " --memory \"1 MB\" --force");
-    EXPECT_EQ(refused.exit_code, 1) << command;
-    EXPECT_THAT(refused.error, HasSubstr("1 MB are allowed; packing.mean_diameter = ")) << command;
-    EXPECT_THAT(refused.error, HasSubstr("--memory SIZE")) << command;
-  }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 3) << "the design and this test's own two texts";
-  EXPECT_EQ(run("evaluate d.toml --quiet --memory \"1 GB\"").exit_code, 0);
-  // In a campaign it is this machine's trouble, not a result of the case: with enough memory the sweep goes on.
-  std::ofstream(folder_ / "s.toml") << "[sweep]\ndesign = \"d.toml\"\nreplicates = 1\n[each]\n"
-                                       "layout.diameter = [\"5 mm\"]\n";
-  refused = run("sweep s.toml -o s --memory \"2 MB\" --workers 2");
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_THAT(refused.error, HasSubstr("1 MB are allowed"));
-  EXPECT_EQ(read_text(folder_ / "s/journal.jsonl").find("\"event\":\"evaluation\""), std::string::npos);
-  EXPECT_EQ(run("sweep s.toml -o s --resume --quiet").exit_code, 0);
-}
-
-TEST_F(CommandLine, AnEstimateBeyondCountingIsAWarning) {
-  const Outcome checked = run("check d.toml --set dynamics.step_factor=1e-300 --json");
-  EXPECT_EQ(checked.exit_code, 0);
-  EXPECT_GT(json::parse(checked.output).at("steps").get<std::int64_t>(), std::int64_t{1'000'000'000'000});
-  EXPECT_THAT(checked.error, HasSubstr("more than a year"));
-}
-
 TEST_F(CommandLine, SweepGivesTablesAPictureAndGrows) {
   std::ofstream(folder_ / "s.toml") << "[sweep]\ndesign = \"d.toml\"\nreplicates = 2\nbase = true\nrun_files = true\n"
                                        "[each]\nmaterial.horizon = [2.0, 2.5]\n";

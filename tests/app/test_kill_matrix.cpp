@@ -139,6 +139,7 @@ std::string csv_without_times(const fs::path& path) {
     std::vector<std::string> fields;
     std::istringstream row(line);
     for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+    if (line.ends_with(',')) fields.emplace_back();
     for (std::size_t k = 0; head && k < fields.size(); ++k)
       if (fields[k] == "seconds") from_behind = fields.size() - k;
     for (std::size_t k = 0; k < fields.size(); ++k)

@@ -1,11 +1,8 @@
 // What is here: signals that end the program: every kind gives a checkpoint and exit code 75 while there is something
 // to keep, and an end within a second with nothing left behind where there is not. What is not: SIGKILL
 // (test_kill_resume.cpp). Expected: the exit codes of the documentation.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <chrono>
 #include <csignal>
@@ -14,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-extern char** environ;  // NOLINT: POSIX declares it nowhere
+#include "tests/app/processes.h"
 
 namespace perfora {
 namespace {
@@ -32,18 +29,6 @@ class Signals : public testing::TestWithParam<int> {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  static pid_t start(const std::vector<std::string>& arguments) {
-    std::vector<char*> argv;
-    for (const std::string& text : arguments) argv.push_back(const_cast<char*>(text.c_str()));
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    for (const int descriptor : {1, 2}) posix_spawn_file_actions_addopen(&quiet, descriptor, "/dev/null", O_WRONLY, 0);
-    pid_t pid = -1;
-    EXPECT_EQ(posix_spawn(&pid, PERFORA_PROGRAM, &quiet, nullptr, argv.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&quiet);
-    return pid;
-  }
   std::vector<std::string> command(const std::string& verb, const std::vector<std::string>& more) const {
     std::vector<std::string> all = {
         PERFORA_PROGRAM, verb, std::string(PERFORA_SOURCE_DIR) + "/designs/quick.toml", "--quiet", "--threads", "1"};
@@ -60,10 +45,8 @@ class Signals : public testing::TestWithParam<int> {
     std::this_thread::sleep_for(delay);
     const Clock::time_point sent = Clock::now();
     kill(pid, signal);
-    int status = 0;
-    waitpid(pid, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-            std::chrono::duration<double>(Clock::now() - sent).count()};
+    const int exit_code = finish(pid);
+    return {exit_code, std::chrono::duration<double>(Clock::now() - sent).count()};
   }
   std::vector<std::string> left_behind() const {
     std::vector<std::string> names;

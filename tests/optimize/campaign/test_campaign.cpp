@@ -29,7 +29,8 @@ class Counting final : public Campaign {
 
   double sum() const {
     double found = 0.0;
-    for (const auto& [key, evaluation] : answers()) found += evaluation.summary.plateau_stress;
+    for (const auto& [key, evaluation] : answers())
+      if (evaluation.status == results::RunStatus::completed) found += evaluation.summary.plateau_stress;
     return found;
   }
 

@@ -71,10 +71,8 @@ TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
   const std::string table = cases_csv(run);
   EXPECT_NE(table.find(",problem,outcome,"), std::string::npos);
   EXPECT_NE(table.find(",not shown,"), std::string::npos);
-  EXPECT_FALSE(case_result(SweepRun(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("other")),
-                           run.sweep().cases[0])
-                   .verdict)
-      << "nothing is known there";
+  const SweepRun begun(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("other"));
+  EXPECT_FALSE(case_result(begun, begun.sweep().cases[0]).verdict) << "nothing is known there";
 }
 
 // Stresses are those of grade 1 times the grade (theory.md): one simulation a replicate answers all of them.
