@@ -60,7 +60,7 @@ struct ChildOptions {
   int workers = 1;
   int threads = 1;                                ///< of each
   std::chrono::duration<double> time_limit{0.0};  ///< wall time an evaluation may take; 0: from its estimate
-  std::chrono::milliseconds silence{5000};  ///< after which a worker is looked at; one that is stopped is replaced
+  std::chrono::milliseconds silence{1500};  ///< after which a worker is looked at; one that is stopped is replaced
 };
 
 /// Child processes, started when first needed and kept (they remember packings). They die with their parent.
