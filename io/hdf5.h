@@ -49,7 +49,7 @@ class Hdf5Writer {
   std::int64_t file_ = -1;
 };
 
-/// What a reader asks of a file. Those written by Perfora 2 and older, or changed by another program, have no checksum.
+/// What a reader asks of a file. Older ones, and those changed by another program, have no checksum.
 enum class Checksum { if_there, required };
 
 /// A file being read. Throws InputError naming the file (and the dataset) when it is missing, no regular file, not
