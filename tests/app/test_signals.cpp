@@ -30,10 +30,15 @@ class Signals : public testing::TestWithParam<int> {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::vector<std::string> command(const std::string& verb, const std::vector<std::string>& more) const {
-    std::vector<std::string> all = {
-        PERFORA_PROGRAM, verb, std::string(PERFORA_SOURCE_DIR) + "/designs/quick.toml", "--quiet", "--threads", "1"};
+    std::vector<std::string> all = {verb, std::string(PERFORA_SOURCE_DIR) + "/designs/quick.toml", "--quiet",
+                                    "--threads", "1"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
+  }
+
+  static void wait_for(const fs::path& path) {
+    const auto give_up = Clock::now() + std::chrono::seconds(60);
+    while (!fs::exists(path) && Clock::now() < give_up) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 
   struct End {
@@ -60,9 +65,7 @@ class Signals : public testing::TestWithParam<int> {
 TEST_P(Signals, ACompressionWritesACheckpoint) {
   const fs::path out = folder_ / "r.h5";
   const pid_t pid = start(command("evaluate", {"-o", out, "--set", "output.checkpoint_interval=0.05"}));
-  const auto give_up = Clock::now() + std::chrono::seconds(60);
-  while (!fs::exists(folder_ / "r.part") && Clock::now() < give_up)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  wait_for(folder_ / "r.part");
   EXPECT_EQ(end_by(pid, GetParam(), std::chrono::milliseconds(200)).exit_code, 75);
   EXPECT_TRUE(fs::exists(folder_ / "r.part"));
   EXPECT_TRUE(fs::exists(out)) << "what a stopped run has measured so far";
@@ -73,7 +76,8 @@ TEST_P(Signals, APackingEndsAtOnce) {
   for (const char* verb : {"pack", "evaluate"}) {
     const pid_t pid = start(command(verb, {"-o", folder_ / "p.h5", "--set", "cell.width=\"400 mm\"", "--set",
                                            "cell.height=\"400 mm\"", "--set", "layout.family=none"}));
-    const End end = end_by(pid, GetParam(), std::chrono::milliseconds(700));
+    wait_for(folder_ / "p.h5.lock");  // the program is awake, the packing begins
+    const End end = end_by(pid, GetParam(), std::chrono::milliseconds(200));
     EXPECT_EQ(end.exit_code, 75) << verb;
     EXPECT_LT(end.seconds, 5.0) << verb;  // a second is promised; machines of tests are loaded
     EXPECT_EQ(left_behind(), std::vector<std::string>()) << verb;
