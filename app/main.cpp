@@ -26,11 +26,9 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "perfora " + io::program_version() + " (" + io::git_revision() + ")");
   program.require_subcommand(1);
   program.footer(
-      "perfora SUBCOMMAND --help says more. Exit codes: 0 done, 1 usage or input, 2 numerical failure, 3 internal "
-      "error\n"
-      "or a failure of the surroundings (disk, memory, a lost worker), 75 stopped by a signal or a time limit, what "
-      "there\n"
-      "was to keep is kept (continue with --resume).");
+      "perfora SUBCOMMAND --help says more. Exit codes: 0 done, 1 usage or input, 2 numerical failure,\n"
+      "3 internal error or a failure of the surroundings (disk, memory, a lost worker), 75 stopped by a signal or a\n"
+      "time limit, what there was to keep is kept (continue with --resume).");
   app::add_pack(program, exit_code);
   app::add_evaluate(program, exit_code);
   app::add_test(program, exit_code);
