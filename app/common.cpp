@@ -249,11 +249,7 @@ void log_warnings(const std::vector<std::string>& warnings) {
 }
 
 void check_cost(const optimize::DesignFile& design, const CommonFlags& flags) {
-  const optimize::DesignEstimate estimate = optimize::estimate_design(design, flags.thread_count());
-  log_warnings(optimize::cost_warnings(estimate));
-  const std::string problem = optimize::memory_problem(design, estimate, flags.memory_allowed());
-  if (!problem.empty())
-    throw io::InputError({design.path().string(), 0, ""}, problem, "", "--memory SIZE allows more at your own risk");
+  log_warnings(optimize::check_cost(design, flags.thread_count(), flags.memory_allowed()));
 }
 
 void refuse_resume_with_force(bool resume, bool force) {

@@ -62,9 +62,8 @@ int evaluate_one(const EvaluateFlags& flags) {
   ProgressLine progress("compression", flags.common.quiet);
   optimize::EvaluateOptions options = evaluate_options(flags, progress);
   options.run_file = output_or_default(flags.output, default_name(flags.design, ".h5"));
-  static_cast<void>(design.validate());  // its warnings come with those of the preparation
-  check_cost(design, flags.common);
-  const optimize::PreparedEvaluation prepared = optimize::prepare_evaluation(design, options, 0, flags.common.force);
+  const optimize::PreparedEvaluation prepared =
+      optimize::prepare_evaluation(design, options, 0, flags.common.force, flags.common.memory_allowed());
   log_warnings(prepared.warnings);
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));

@@ -1,6 +1,7 @@
 // What is here: one evaluation for users of the library. What is not: its way (optimize/evaluate/evaluation.cpp).
 #include "perfora/evaluate.h"
 
+#include "io/memory.h"
 #include "optimize/evaluate/run_output.h"
 #include "perfora/inside.h"
 #include "results/json.h"
@@ -20,7 +21,9 @@ Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
     work.wall_time_limit = options.wall_time;
     work.cancellation = relay.token();
     work.progress = relay.callback();
-    optimize::PreparedEvaluation prepared = optimize::prepare_evaluation(file, work, options.replicate, options.force);
+    optimize::PreparedEvaluation prepared =
+        optimize::prepare_evaluation(file, work, options.replicate, options.force,
+                                     options.memory > 0.0 ? options.memory : io::usable_memory_bytes());
     const results::Evaluation found = optimize::evaluate_design(file, work, options.replicate);
     relay.rethrow();
     Evaluation made = public_evaluation(found, results::to_json(found, false));

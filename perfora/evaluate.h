@@ -39,12 +39,13 @@ struct EvaluateOptions {
   bool resume = false;                 ///< go on from what run_file has, or read it when it is finished
   bool force = false;                  ///< replace a run file that exists
   double wall_time = 0.0;              ///< s, after which it stops with a checkpoint; 0: none
+  double memory = 0.0;                 ///< bytes it may take by its estimate; 0: what this process may
   ProgressCallback progress;           ///< may be empty
 };
 
 /// Packs a design, compresses it and measures the curve, what `perfora evaluate` does. A stop (by the callback or the
 /// wall time) is Status::stopped; numerical trouble is Status::failed. Throws Error for a design that cannot be
-/// evaluated and a run file that exists or is of another design.
+/// evaluated or would take more than `memory`, and a run file that exists or is of another design.
 Evaluation evaluate(const Design& design, const EvaluateOptions& options = {});
 
 }  // namespace perfora

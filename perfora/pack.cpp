@@ -7,6 +7,8 @@
 
 #include "io/files.h"
 #include "io/lock.h"
+#include "io/memory.h"
+#include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/pack_file.h"
 #include "perfora/inside.h"
 #include "results/json.h"
@@ -77,6 +79,7 @@ Packing pack(const Design& design, const PackOptions& options) {
   return at_boundary([&] {
     const optimize::DesignFile file = Inside::file(design).clone();
     static_cast<void>(file.validate(optimize::Purpose::block));
+    static_cast<void>(optimize::check_cost(file, thread_count(options.threads), io::usable_memory_bytes()));
     io::OutputLock lock;
     if (!options.file.empty()) {
       io::check_output(options.file, true, false);  // that there is a folder for the lock

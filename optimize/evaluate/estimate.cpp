@@ -12,6 +12,7 @@
 #include "geometry/clip.h"
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
+#include "io/error.h"
 #include "io/text.h"
 #include "optimize/evaluate/estimate_stepping.h"
 #include "results/grade.h"
@@ -140,6 +141,14 @@ std::string memory_problem(const DesignFile& file, const DesignEstimate& estimat
 
 std::string memory_problem(const DesignFile& file, double allowed) {
   return memory_problem(file, estimate_design(file, 1), allowed);
+}
+
+std::vector<std::string> check_cost(const DesignFile& design, int threads, double memory) {
+  const DesignEstimate estimate = estimate_design(design, threads);
+  if (const std::string problem = memory_problem(design, estimate, memory); !problem.empty())
+    throw io::InputError({design.path().string(), 0, ""}, problem, "",
+                         "--memory SIZE (`memory` in the library) allows more at your own risk");
+  return cost_warnings(estimate);
 }
 
 double characteristic_length(const solver::MaterialOptions& material, double mean_diameter) {

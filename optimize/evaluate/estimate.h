@@ -39,6 +39,10 @@ std::string memory_problem(const DesignFile& file, const DesignEstimate& estimat
 /// The same of a design that is not estimated yet.
 std::string memory_problem(const DesignFile& file, double allowed);
 
+/// What a run of this design costs, looked at before it starts: cost_warnings(); throws io::InputError where it would
+/// take more than `memory` bytes. `design` must be valid.
+std::vector<std::string> check_cost(const DesignFile& design, int threads, double memory);
+
 /// E G/sigma_t^2 of the solid material with discs of this mean diameter, m: as measured
 /// (material.characteristic_length, which grows with the discs), or estimated as 13 <d> (horizon/3)^1.4, which tension
 /// tests of solid samples without noise gave within a third (docs/user/theory.md, "Grade, strength, scale"). Neither

@@ -223,7 +223,14 @@ std::optional<Evaluation> finished_evaluation(const DesignFile& design, const st
   if (!file.has("/summary") || !file.has("/config")) return std::nullopt;
   const nlohmann::json record = nlohmann::json::parse(file.text("/summary"), nullptr, false);
   if (!record.is_object() || record.value("schema", std::string()) != results::evaluation_schema) return std::nullopt;
-  Evaluation evaluation = results::evaluation_from_json(record);
+  Evaluation evaluation;
+  try {
+    evaluation = results::evaluation_from_json(record);
+  } catch (const nlohmann::json::exception& error) {
+    throw io::InputError({run_file.string(), 0, ""},
+                         fmt::format("its /summary is not one that this program wrote: {}", error.what()), "",
+                         "start anew with --force, or name another output");
+  }
   if (evaluation.status == results::RunStatus::stopped) return std::nullopt;
   if (!same_configuration(file.text("/config"), design) || evaluation.replicate != replicate ||
       evaluation.seeds != design.design().seeds.effective(replicate) ||

@@ -2,9 +2,11 @@
 #include "optimize/evaluate/run_output.h"
 
 #include <array>
+#include <utility>
 
 #include "io/error.h"
 #include "io/files.h"
+#include "optimize/evaluate/estimate.h"
 
 namespace perfora::optimize {
 
@@ -34,8 +36,10 @@ io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resum
 }
 
 PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
-                                      bool force) {
+                                      bool force, double memory) {
   PreparedEvaluation prepared{design.validate(), {}};
+  for (std::string& warning : check_cost(design, options.threads, memory))
+    prepared.warnings.push_back(std::move(warning));
   if (!options.packing_file.empty()) require_packing_file(design, options.packing_file, replicate);
   if (options.run_file.empty()) return prepared;
   prepared.lock = claim_run_output(options.run_file, force, options.resume);

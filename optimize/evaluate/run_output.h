@@ -18,13 +18,13 @@ namespace perfora::optimize {
 
 /// What stands before an evaluation.
 struct PreparedEvaluation {
-  std::vector<std::string> warnings;  ///< of the design
+  std::vector<std::string> warnings;  ///< of the design and of what it costs
   io::OutputLock lock;                ///< to be held until all files of the run are written
 };
 
-/// Checks the design and options.packing_file, takes options.run_file as claim_run_output() does; with options.resume
-/// refuses a finished run of another design. Throws io::InputError.
+/// Checks the design, that it takes no more than `memory` bytes, and options.packing_file; takes options.run_file as
+/// claim_run_output() does; with options.resume refuses a finished run of another design. Throws io::InputError.
 PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOptions& options, int replicate,
-                                      bool force);
+                                      bool force, double memory);
 
 }  // namespace perfora::optimize

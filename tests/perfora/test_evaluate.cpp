@@ -39,6 +39,16 @@ TEST(PublicEvaluation, IsThatOfTheRoomsToTheLastBit) {
     }
 }
 
+TEST(PublicEvaluation, MoreMemoryThanAllowedIsRefusedBeforeAnythingIsWritten) {
+  const DesignFolder folder;
+  EvaluateOptions options;
+  options.run_file = folder / "run.h5";
+  options.memory = 1e6;  // bytes; less than the program itself
+  EXPECT_THAT(error_of([&] { static_cast<void>(evaluate(small_block(), options)); }),
+              HasSubstr("of memory, and 1 MB are allowed"));
+  EXPECT_FALSE(std::filesystem::exists(options.run_file));
+}
+
 TEST(PublicEvaluation, ProgressTellsStrainAndStress) {
   std::vector<Progress> heard;
   EvaluateOptions options;

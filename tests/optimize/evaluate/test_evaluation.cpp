@@ -134,6 +134,19 @@ TEST_F(Evaluating, TheRunFileHoldsItsSummaryAndAFinishedRunIsNotRunAgain) {
   EXPECT_THAT(complaint([&] { static_cast<void>(evaluate_design(file, options, 1)); }), HasSubstr("another design"));
 }
 
+TEST_F(Evaluating, ASummaryThatAnotherProgramChangedIsRefusedInASentence) {
+  EvaluateOptions options;
+  options.run_file = folder_ / "r.h5";
+  nlohmann::json record = to_json(evaluate_design(design(), options, 0), false);
+  record["status"] = 3;
+  io::Hdf5Writer writer(options.run_file);
+  writer.text("/summary", record.dump());
+  writer.text("/config", "");
+  writer.commit();
+  EXPECT_THAT(complaint([&] { static_cast<void>(finished_evaluation(design(), options.run_file, 0)); }),
+              HasSubstr("its /summary is not one that this program wrote"));
+}
+
 TEST_F(Evaluating, AWallTimeLimitStopsAndResumeGivesTheSameBits) {
   const DesignFile file = design();
   const Evaluation straight = evaluate_design(file, {}, 0);
