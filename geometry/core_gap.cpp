@@ -1,6 +1,7 @@
 // What is here: the gap between two cores. What is not: distances within one (polygon_core.cpp), periodic images
 // (wall.cpp).
 #include "geometry/core_gap.h"
+#include "geometry/plane.h"
 
 #include <limits>
 #include <span>
@@ -9,10 +10,6 @@ namespace perfora::geometry {
 namespace {
 
 using Corners = std::span<const Point>;
-
-double cross(Point a, Point b, Point c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 struct Edge {
   Point start, end;

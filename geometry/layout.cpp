@@ -39,11 +39,6 @@ std::string length_text(double length) {
   return io::quantity(length, io::Dimension::length);
 }
 
-double wrap(double value, double period) {
-  value -= period * std::floor(value / period);
-  return value < period ? value : 0.0;
-}
-
 class Layouter {
  public:
   Layouter(const LayoutOptions& options, std::uint64_t seed, const io::Schema* schema)
@@ -235,8 +230,8 @@ class Layouter {
         holes[k].x += distance * std::cos(angle);
         holes[k].y += distance * std::sin(angle);
       }
-      holes[k].x = wrap(holes[k].x, options_.width);
-      holes[k].y = wrap(holes[k].y, options_.height);
+      holes[k].x = wrapped(holes[k].x, options_.width);
+      holes[k].y = wrapped(holes[k].y, options_.height);
     }
     return holes;
   }

@@ -9,6 +9,7 @@
 #include "geometry/layout.h"
 #include "geometry/make_shape.h"
 #include "geometry/outline_file.h"
+#include "geometry/plane.h"
 #include "io/csv.h"
 #include "io/text.h"
 #include "io/units.h"
@@ -18,15 +19,6 @@ namespace {
 
 using Usual = std::function<Shape(double)>;
 
-std::string length_text(double length) {
-  return io::quantity(length, io::Dimension::length);
-}
-
-double wrapped(double value, double period) {
-  value -= period * std::floor(value / period);
-  return value < period ? value : 0.0;
-}
-
 std::string name_of_next(const std::vector<Perforation>& holes) {
   return "hole " + std::to_string(holes.size() + 1);
 }
@@ -34,10 +26,12 @@ std::string name_of_next(const std::vector<Perforation>& holes) {
 void add_listed(std::vector<Perforation>& holes, const LayoutOptions& cell, double x, double y, Shape shape,
                 const io::Origin& origin) {
   if (!(x >= 0.0 && x <= cell.width && y >= 0.0 && y <= cell.height))
-    throw io::InputError(
-        origin, name_of_next(holes) + " at (" + length_text(x) + ", " + length_text(y) + ") lies outside the cell",
-        "0 to " + length_text(cell.width) + " in x, 0 to " + length_text(cell.height) + " in y",
-        "give centres in metres within the cell");
+    throw io::InputError(origin,
+                         name_of_next(holes) + " at (" + io::quantity(x, io::Dimension::length) + ", " +
+                             io::quantity(y, io::Dimension::length) + ") lies outside the cell",
+                         "0 to " + io::quantity(cell.width, io::Dimension::length) + " in x, 0 to " +
+                             io::quantity(cell.height, io::Dimension::length) + " in y",
+                         "give centres in metres within the cell");
   holes.push_back({wrapped(x, cell.width), wrapped(y, cell.height), std::move(shape)});
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/layout_random.h"
+#include "geometry/plane.h"
 
 namespace perfora::geometry {
 namespace {
@@ -102,11 +103,6 @@ class Boxes {
   int columns_ = 1, rows_ = 1;
   std::vector<std::vector<std::size_t>> members_;
 };
-
-double wrapped(double value, double period) {
-  value -= period * std::floor(value / period);
-  return value < period ? value : 0.0;
-}
 
 }  // namespace
 

@@ -14,7 +14,7 @@
 namespace perfora::geometry {
 namespace {
 
-constexpr std::size_t most_corners = 10000;
+constexpr std::size_t most_read_corners = 10000;
 constexpr std::string_view word = "POLYGON";
 
 /// Reads one WKT text from its front.
@@ -71,7 +71,7 @@ std::variant<std::vector<Point>, std::string> parse_wkt_polygon(std::string_view
     Point corner;
     if (!scanner.take(corner.x) || !scanner.take(corner.y))
       return "corner " + std::to_string(corners.size() + 1) + " has no two numbers";
-    if (corners.size() == most_corners) return std::string("there are too many corners");
+    if (corners.size() == most_read_corners) return std::string("there are too many corners");
     corners.push_back(corner);
   } while (scanner.take(','));
   if (!scanner.take(')'))
@@ -92,7 +92,7 @@ std::vector<Point> read_outline(const std::filesystem::path& path) {
       throw io::InputError({path.string(), 0, ""}, *problem, "one POLYGON of one ring", "correct the text");
     return std::get<std::vector<Point>>(std::move(read));
   }
-  const io::CsvTable table = io::parse_csv(text, path.string(), {"x", "y"}, most_corners);
+  const io::CsvTable table = io::parse_csv(text, path.string(), {"x", "y"}, most_read_corners);
   std::vector<Point> corners;
   for (std::size_t k = 0; k < table.rows(); ++k) corners.push_back({table.columns[0][k], table.columns[1][k]});
   if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();

@@ -7,17 +7,11 @@
 #include <utility>
 
 #include "geometry/pair_forces.h"
+#include "geometry/plane.h"
 
 namespace perfora::geometry {
 
-namespace {
-
-double wrapped(double value, double period) {
-  value -= period * std::floor(value / period);
-  return value < period ? value : 0.0;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 /// Everything in and around one cell of the grid, relative to the middle of that cell.
 struct PairLists::Surroundings {

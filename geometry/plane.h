@@ -48,6 +48,17 @@ inline Bounds bounds_of(Point a, Point b) {
   return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
 }
 
+/// Twice the area of the triangle a, b, c, m2: positive where the way a-b-c turns left.
+inline double cross(Point a, Point b, Point c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// A coordinate moved by whole periods into [0, period).
+inline double wrapped(double value, double period) {
+  value -= period * std::floor(value / period);
+  return value < period ? value : 0.0;
+}
+
 /// Distance of two boxes, 0 where they meet.
 inline double distance(const Bounds& a, const Bounds& b) {
   const double x = std::max({0.0, a.left - b.right, b.left - a.right});

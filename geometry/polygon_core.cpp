@@ -4,14 +4,11 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/plane.h"
 #include "geometry/polygon_checks.h"
 
 namespace perfora::geometry {
 namespace {
-
-double cross(Point a, Point b, Point c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 Point between(Point a, Point b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};

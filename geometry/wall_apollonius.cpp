@@ -18,11 +18,11 @@ namespace perfora::geometry {
 
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Graph = CGAL::Apollonius_graph_hierarchy_2<CGAL::Apollonius_graph_filtered_traits_2<Kernel>>;
+using Plane = CGAL::Simple_cartesian<double>;
+using Graph = CGAL::Apollonius_graph_hierarchy_2<CGAL::Apollonius_graph_filtered_traits_2<Plane>>;
 
 /// A hole or a periodic image of it.
-struct Image {
+struct SiteImage {
   int hole = -1;
   double shift_x = 0.0, shift_y = 0.0;
 };
@@ -44,7 +44,7 @@ ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout) {
   };
   const std::vector<Perforation>& holes = layout.perforations;
   Graph graph;
-  std::map<SiteKey, Image> images;
+  std::map<SiteKey, SiteImage> images;
   std::vector<bool> hidden(holes.size(), false);
   for (std::size_t i = 0; i < holes.size(); ++i) {
     const int hole = static_cast<int>(i);
@@ -52,7 +52,7 @@ ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout) {
     offer(std::min(layout.width, layout.height) - diameter, hole, hole);
     for (int row = -1; row <= 1; ++row)
       for (int column = -1; column <= 1; ++column) {
-        const Image image{hole, column * layout.width, row * layout.height};
+        const SiteImage image{hole, column * layout.width, row * layout.height};
         const Graph::Site_2 site({holes[i].x + image.shift_x, holes[i].y + image.shift_y}, 0.5 * diameter);
         if (images.emplace(key_of(site), image).second)
           graph.insert(site);
@@ -62,12 +62,12 @@ ThinnestWall thinnest_wall_apollonius(const PerforationLayout& layout) {
   }
   std::vector<bool> visible(holes.size(), false);
   for (auto site = graph.visible_sites_begin(); site != graph.visible_sites_end(); ++site) {
-    const Image& image = images.at(key_of(*site));
+    const SiteImage& image = images.at(key_of(*site));
     if (image.shift_x == 0.0 && image.shift_y == 0.0) visible[static_cast<std::size_t>(image.hole)] = true;
   }
   for (auto edge = graph.finite_edges_begin(); edge != graph.finite_edges_end(); ++edge) {
-    const Image& a = images.at(key_of(edge->first->vertex((edge->second + 1) % 3)->site()));
-    const Image& b = images.at(key_of(edge->first->vertex((edge->second + 2) % 3)->site()));
+    const SiteImage& a = images.at(key_of(edge->first->vertex((edge->second + 1) % 3)->site()));
+    const SiteImage& b = images.at(key_of(edge->first->vertex((edge->second + 2) % 3)->site()));
     const Perforation& first = holes[static_cast<std::size_t>(a.hole)];
     const Perforation& second = holes[static_cast<std::size_t>(b.hole)];
     offer(first.signed_gap(second, b.shift_x - a.shift_x, b.shift_y - a.shift_y), a.hole, b.hole);

@@ -11,7 +11,7 @@
 namespace perfora::io {
 namespace {
 
-constexpr std::string_view mark = "\x89PFCRC1\n";
+constexpr std::string_view magic = "\x89PFCRC1\n";
 constexpr std::size_t trailer_size = 24, proved_size = 20;
 
 void put(std::string& text, std::uint64_t value, int bytes) {
@@ -19,7 +19,7 @@ void put(std::string& text, std::uint64_t value, int bytes) {
 }
 
 std::string trailer_of(std::uint64_t length, std::uint32_t sum) {
-  std::string trailer(mark);
+  std::string trailer(magic);
   put(trailer, length, 8);
   put(trailer, sum, 4);
   put(trailer, crc32(trailer), 4);
@@ -38,7 +38,7 @@ Trailer check_trailer(int descriptor, std::uint64_t size, const std::filesystem:
   std::string found(trailer_size, '\0');
   ::lseek(descriptor, static_cast<off_t>(length), SEEK_SET);
   found.resize(read_block(descriptor, found.data(), found.size(), path));
-  const bool marked = found.starts_with(mark);
+  const bool marked = found.starts_with(magic);
   std::string proof;
   put(proof, crc32(std::string_view(found).substr(0, std::min(found.size(), proved_size))), 4);
   if (!marked && !found.ends_with(proof)) return Trailer::absent;

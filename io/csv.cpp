@@ -12,6 +12,7 @@
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/letters.h"
 #include "io/text.h"
 #include "io/units.h"
 
@@ -19,12 +20,6 @@ namespace perfora::io {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string_view unquoted(std::string_view text) {
   const bool quotes = text.size() >= 2 && text.front() == '"' && text.back() == '"';
@@ -52,12 +47,6 @@ std::optional<double> number_of(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
   return number;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 /// Walks the lines that hold something, comments cut off.
@@ -219,7 +208,7 @@ void add_row(CsvTable& table, const Layout& layout, const Lines& at, const Origi
   table.lines.push_back(at.number());
 }
 
-constexpr std::size_t largest_file = std::size_t{1} << 30;
+constexpr std::size_t largest_table = std::size_t{1} << 30;
 
 /// The rows of `text`; `layout_for` reads its first line.
 template <class LayoutOf>
@@ -248,7 +237,7 @@ CsvTable rows_of(std::string_view text, const std::string& name, const std::vect
 }  // namespace
 
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
-  return parse_csv(read_file(path, largest_file), path.string(), wanted, maximum_rows);
+  return parse_csv(read_file(path, largest_table), path.string(), wanted, maximum_rows);
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
@@ -261,7 +250,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name, const std::ve
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvQuantity>& wanted, std::size_t maximum_rows) {
   std::vector<std::string> names;
   for (const CsvQuantity& quantity : wanted) names.push_back(quantity.names.front());
-  return rows_of(read_file(path, largest_file), path.string(), names, maximum_rows,
+  return rows_of(read_file(path, largest_table), path.string(), names, maximum_rows,
                  [&](std::string_view line, const Origin& origin) { return layout_of(line, wanted, origin); });
 }
 
@@ -299,7 +288,7 @@ std::vector<std::string> text_fields(std::string_view line) {
 }  // namespace
 
 std::vector<std::string> csv_names(const std::filesystem::path& path) {
-  const std::string text = read_file(path, largest_file);
+  const std::string text = read_file(path, largest_table);
   Lines lines(text);
   if (!lines.next()) return {};
   std::vector<std::string> names;
@@ -311,7 +300,7 @@ std::vector<std::string> csv_names(const std::filesystem::path& path) {
 }
 
 CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_rows) {
-  const std::string text = read_file(path, largest_file);
+  const std::string text = read_file(path, largest_table);
   CsvTexts table;
   Lines lines(text);
   while (lines.next()) {

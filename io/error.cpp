@@ -1,6 +1,7 @@
 // What is here: how an InputError reads, and the search for the nearest known name.
 // What is not: any particular error.
 #include "io/error.h"
+#include "io/letters.h"
 
 #include <algorithm>
 #include <cctype>
@@ -25,12 +26,6 @@ std::string message(const Origin& origin, const std::string& problem, const std:
   for (const std::string* part : {&allowed, &remedy})
     if (!part->empty()) text.append("; ").append(*part);
   return one_line(std::move(text));
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 /// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours count one each.

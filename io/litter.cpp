@@ -38,15 +38,15 @@ std::array<Slot, slots>& table() {
 /// Made before any handler can run, so that the first use of the table is not in one.
 const bool made = !table().empty();  // NOLINT(cert-err58-cpp): nothing in it throws
 
-constexpr const char* mark = ".tmp-";
+constexpr const char* temporary_mark = ".tmp-";
 
 /// The process of this host that a temporary's name tells of; 0: it is none.
 pid_t process_of(const std::string& name) {
   const std::string own = temporary_name("").string(), of_this_host = own.substr(own.rfind('-'));
-  const auto at = name.rfind(mark);
+  const auto at = name.rfind(temporary_mark);
   if (at == std::string::npos || !name.ends_with(of_this_host)) return 0;
   char* end = nullptr;
-  const long pid = std::strtol(name.c_str() + at + std::strlen(mark), &end, 10);
+  const long pid = std::strtol(name.c_str() + at + std::strlen(temporary_mark), &end, 10);
   return pid > 0 && end == name.c_str() + name.size() - of_this_host.size() ? static_cast<pid_t>(pid) : 0;
 }
 

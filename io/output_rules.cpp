@@ -19,7 +19,7 @@ constexpr int most_links = 40;  // as many as Linux follows
 /// The longest that is put in the place of an output's extension: the temporary file of the data beside R.xdmf.
 constexpr std::string_view longest_suffix = ".xdmf.h5.tmp-4194304-ffff";
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
+std::filesystem::path containing_folder(const std::filesystem::path& path) {
   const std::filesystem::path folder = (path.has_filename() ? path : path.parent_path()).parent_path();
   return folder.empty() ? std::filesystem::path(".") : folder;
 }
@@ -40,7 +40,7 @@ std::filesystem::path output_target(const std::filesystem::path& path) {
 void check_name_length(const std::filesystem::path& path) {
   const std::filesystem::path named = path.has_filename() ? path : path.parent_path();
   const std::size_t stem = named.stem().string().size();
-  const long limit = ::pathconf(folder_of(path).c_str(), _PC_NAME_MAX);
+  const long limit = ::pathconf(containing_folder(path).c_str(), _PC_NAME_MAX);
   const std::size_t longest = limit > 0 ? static_cast<std::size_t>(limit) : NAME_MAX;
   if (stem + longest_suffix.size() > longest)
     throw InputError({path.string(), 0, ""},
@@ -57,7 +57,7 @@ void check_output(const std::filesystem::path& path, bool force, bool resume) {
   const Origin origin{path.string(), 0, ""};
   if (path.empty()) throw InputError(origin, "the output has no name", "", "give one with -o");
   check_name_length(path);
-  const std::filesystem::path target = output_target(path), folder = folder_of(target);
+  const std::filesystem::path target = output_target(path), folder = containing_folder(target);
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
     throw InputError(origin, "its folder " + folder.string() + " does not exist", "",

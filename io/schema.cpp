@@ -12,6 +12,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/letters.h"
 #include "io/text.h"
 
 namespace perfora::io {
@@ -90,12 +91,6 @@ void check_schema_version(const Value& value, const Origin& origin) {
     throw InputError(origin, fmt::format("the file has keys of version {}", *version),
                      fmt::format("this program knows the keys up to version {}", schema_version),
                      "read it with a newer program");
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// A renaming of a section has no dot.

@@ -28,7 +28,7 @@
 namespace perfora::io {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{16} << 20;
+constexpr std::size_t largest_toml = std::size_t{16} << 20;
 /// toml++ walks nested tables recursively; a dotted key of more parts is refused before it can exhaust the stack.
 constexpr int deepest_key = 500;
 
@@ -112,7 +112,7 @@ void forget_lines(Value& value) {
 }  // namespace
 
 std::vector<Entry> parse_toml(std::string_view text, const std::string& name) {
-  if (text.size() > largest_file)
+  if (text.size() > largest_toml)
     throw InputError({name, 0, ""}, "is larger than 16 MB", "",
                      "put long lists into a CSV file and name it by a path key");
   refuse_deep_keys(text, name);
@@ -134,7 +134,7 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& name) {
 }
 
 std::vector<Entry> read_toml(const std::filesystem::path& path) {
-  return parse_toml(read_file(path, largest_file), path.string());
+  return parse_toml(read_file(path, largest_toml), path.string());
 }
 
 std::optional<Value> parse_toml_value(std::string_view text) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "io/letters.h"
 #include "io/schema.h"
 #include "io/text.h"
 #include "io/units.h"
@@ -101,13 +102,6 @@ std::string plain_unit(std::string_view written) {
     written.remove_prefix(from.size());
   }
   return unit;
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 /// A decimal number at the front of a text, cut in its parts.

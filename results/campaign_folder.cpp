@@ -1,5 +1,6 @@
 // What is here: journals and result files looked at from outside. What is not: writing them (optimize/campaign/).
 #include "results/campaign_folder.h"
+#include "results/summary_parts.h"
 
 #include <map>
 #include <sstream>
@@ -27,16 +28,6 @@ std::vector<json> journal_events(const fs::path& folder) {
   }
   return events;
 }
-
-namespace {
-
-/// A text of an object of JSON; "" where there is none.
-std::string text_in(const json& object, const char* key) {
-  if (!object.is_object() || !object.contains(key) || !object.at(key).is_string()) return {};
-  return object.at(key).get<std::string>();
-}
-
-}  // namespace
 
 std::string kind_in_journal(const fs::path& folder) {
   std::error_code none;

@@ -32,7 +32,7 @@ std::string line(const std::string& name, const std::string& value) {
   return value.empty() ? std::string() : fmt::format("  {:<36}{}\n", name, value);
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
+[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& problem) {
   throw io::InputError({path.string(), 0, ""}, problem, readable_files);
 }
 
@@ -60,8 +60,8 @@ std::string describe_hdf5(const std::filesystem::path& path) {
   if (format.starts_with("perfora.checkpoint/")) return describe_checkpoint(file);
   if (format.starts_with("perfora.xdmf/"))
     return fmt::format("Connectivity of {}, read by ParaView with it\n", path.stem().string());
-  refuse(path, format.empty() ? "this HDF5 file was not written by Perfora (it has no attribute `format`)"
-                              : "HDF5 file of an unknown format \"" + format + "\"");
+  refuse_file(path, format.empty() ? "this HDF5 file was not written by Perfora (it has no attribute `format`)"
+                                   : "HDF5 file of an unknown format \"" + format + "\"");
 }
 
 bool checksum_holds(std::string_view text) {
@@ -105,7 +105,7 @@ JournalFacts read_journal(const std::filesystem::path& path) {
 
 std::string describe_journal(const std::filesystem::path& path) {
   const JournalFacts facts = read_journal(path);
-  if (facts.events.empty()) refuse(path, "the journal holds no whole event");
+  if (facts.events.empty()) refuse_file(path, "the journal holds no whole event");
   std::string text = fmt::format("Journal {}\n", path.string());
   for (const auto& [kind, number] : facts.events) text += line(kind, io::count(number));
   if (facts.bad_line > 0) text += line("damaged", fmt::format("line {} fails its checksum", facts.bad_line));
@@ -152,7 +152,7 @@ std::string describe_folder(const std::filesystem::path& folder) {
   std::string text;
   for (const char* name : {"journal.jsonl", "checkpoint.h5", "checkpoint-2.h5"})
     if (std::filesystem::exists(folder / name)) text += describe_file(folder / name);
-  if (text.empty()) refuse(folder, "the folder holds no journal, checkpoint or result");
+  if (text.empty()) refuse_file(folder, "the folder holds no journal, checkpoint or result");
   return text;
 }
 
@@ -161,7 +161,7 @@ nlohmann::json parse_summary(const std::string& text, const std::filesystem::pat
   const auto schema = object.is_object() ? object.find("schema") : object.end();
   if (!object.is_object() || schema == object.end() || !schema->is_string() ||
       !schema->get<std::string>().starts_with("perfora."))
-    refuse(path, "holds no summary written by perfora");
+    refuse_file(path, "holds no summary written by perfora");
   return object;
 }
 
@@ -191,7 +191,7 @@ std::string describe_file(const std::filesystem::path& path) {
   if (start.starts_with(hdf5_signature)) return describe_hdf5(path);
   if (extension == ".jsonl") return describe_journal(path);
   if (extension == ".toml") return describe_toml(path);
-  refuse(path, start.empty() ? "the file is empty" : "not a file that can be described");
+  refuse_file(path, start.empty() ? "the file is empty" : "not a file that can be described");
 }
 
 }  // namespace perfora::results

@@ -8,13 +8,10 @@
 
 #include "io/error.h"
 #include "solver/checkpoint_members.h"
+#include "solver/index.h"
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int64_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 /// Refuses with the place of what is wrong.
 class Place {

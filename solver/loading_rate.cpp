@@ -22,8 +22,8 @@ constexpr double motion_ratio = 0.1;
 constexpr double slowest_ratio = 0.125;  // of the rate at rest: an avalanche need not be waited for to its last disc
 /// Times the rate of `transits` transits before the first peak: there, too, a wave crosses the block within 0.1 %.
 constexpr double fastest_ratio = 16.0;
-constexpr double stress_memory = 5e-3;  // strain that the running mean of the stress looks back on
-constexpr double rounding = 1e-9;       // of a segment: a strain that is a multiple of it counts as one
+constexpr double stress_memory = 5e-3;     // strain that the running mean of the stress looks back on
+constexpr double segment_rounding = 1e-9;  // of a segment: a strain that is a multiple of it counts as one
 
 /// What the avalanches after the first peak add to the steps that the rubble's stress alone would ask for: whole runs
 /// to 60 % took 1.24 (quick.toml), 1.29 to 1.36 (2 x 2 holes at full resolution) and 1.33 times (Table 1) as many.
@@ -74,20 +74,21 @@ void begin_segment(const LoadingPlan& plan, const SegmentMeasures& measures, Loa
   if (state.rate > 0.0) rate = std::clamp(rate, largest_slow_down * state.rate, largest_speed_up * state.rate);
   state.last_begin = state.begin;
   // A whole number of segments from the start, so that sums do not drift; a path that began between them joins in.
-  state.end = (std::floor(state.begin / plan.segment_strain + rounding) + 1.0) * plan.segment_strain;
-  if (plan.end_strain > 0.0 && state.end > plan.end_strain - rounding * plan.segment_strain)
+  state.end = (std::floor(state.begin / plan.segment_strain + segment_rounding) + 1.0) * plan.segment_strain;
+  if (plan.end_strain > 0.0 && state.end > plan.end_strain - segment_rounding * plan.segment_strain)
     state.end = plan.end_strain;
   const double strain = state.end - state.begin;
   // A rate that fits a whole number of steps keeps it.
-  state.steps = std::max(1.0, std::ceil(strain / (rate * plan.time_step) - rounding));
+  state.steps = std::max(1.0, std::ceil(strain / (rate * plan.time_step) - segment_rounding));
   state.rate = strain / (state.steps * plan.time_step);
 }
 
 LoadingPlan constant_loading(double rate, double longest_step) {
   LoadingPlan plan;
-  plan.segment_strain = path_segment * std::max(1.0, std::ceil(rate * longest_step / path_segment - rounding));
+  plan.segment_strain = path_segment * std::max(1.0, std::ceil(rate * longest_step / path_segment - segment_rounding));
   plan.start_rate = rate;
-  plan.time_step = plan.segment_strain / (rate * std::ceil(plan.segment_strain / (rate * longest_step) - rounding));
+  plan.time_step =
+      plan.segment_strain / (rate * std::ceil(plan.segment_strain / (rate * longest_step) - segment_rounding));
   return plan;
 }
 

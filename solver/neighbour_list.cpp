@@ -1,15 +1,12 @@
 // What is here: building and keeping the list of near pairs.
 #include "solver/neighbour_list.h"
+#include "solver/index.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace perfora::solver {
-namespace {
-std::size_t at(std::int32_t k) {
-  return static_cast<std::size_t>(k);
-}
-}  // namespace
+namespace {}  // namespace
 
 void NeighbourList::configure(std::int32_t discs, double largest_radius, double skin) {
   largest_radius_ = largest_radius;

@@ -7,14 +7,14 @@ namespace {
 constexpr double passed_ratio = 0.8;   // a piece below this fraction of the largest so far ends the search
 constexpr double latest_peak = 10.0;   // times the estimated peak strain
 constexpr double least_strain = 2e-4;  // pieces before that are too close to zero stress to tell a fall
-constexpr double rounding = 1e-9;
+constexpr double piece_rounding = 1e-9;
 
 }  // namespace
 
 bool PeakWatch::ends_piece(double stress, double width, double at) {
   work += stress * width;
   strain += width;
-  if (strain < (1.0 - rounding) * piece) return false;
+  if (strain < (1.0 - piece_rounding) * piece) return false;
   last = work / strain;
   last_at = at;
   work = strain = 0.0;

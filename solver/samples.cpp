@@ -10,7 +10,7 @@ namespace perfora::solver {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-9;  // of an interval: strains that differ by less are one
+constexpr double interval_rounding = 1e-9;  // of an interval: strains that differ by less are one
 
 void set_stresses(results::History& h, const Virial& stress) {
   h.stress_yy.back() = stress.yy;
@@ -54,8 +54,8 @@ void Samples::wait_for_sample() {
 }
 
 void Samples::plan_next(double strain) {
-  const double tolerance = rounding * interval_;
-  sample_ = (std::floor(strain / interval_ + rounding) + 1.0) * interval_;
+  const double tolerance = interval_rounding * interval_;
+  sample_ = (std::floor(strain / interval_ + interval_rounding) + 1.0) * interval_;
   if (sample_ > until_ - tolerance) sample_ = until_;
   if (strain > until_ - tolerance) sample_ = never;
   half_ = std::isfinite(sample_) ? 0.5 * (strain + sample_) : never;

@@ -1,6 +1,7 @@
 // What is here: the step. Order: cell, kick and drift (leapfrog form of velocity Verlet), neighbour list, forces with
 // damage and breaks, ledger.
 #include "solver/simulation.h"
+#include "solver/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +10,6 @@
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int32_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 constexpr double skin_ratio = 0.35;  // Verlet skin over <d>: long enough that rubble rebuilds every few hundred steps
 /// Share of the skin at which a list is renewed when displacements are looked at; below it, looking often would cost

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/index.h"
 #include "solver/simulation.h"
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int32_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 constexpr std::int64_t chunk_bonds = 4096;
 

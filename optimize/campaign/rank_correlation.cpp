@@ -11,7 +11,7 @@
 namespace perfora::optimize {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Pearson's correlation; NaN where one list does not vary.
 double linear_correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -24,7 +24,7 @@ double linear_correlation(const std::vector<double>& a, const std::vector<double
     aa += (a[k] - mean_a) * (a[k] - mean_a);
     bb += (b[k] - mean_b) * (b[k] - mean_b);
   }
-  return aa > 0.0 && bb > 0.0 ? std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0) : missing;
+  return aa > 0.0 && bb > 0.0 ? std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0) : unknown;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ RankCorrelation rank_correlation(const std::vector<double>& a, const std::vector
       kept_a.push_back(a[k]);
       kept_b.push_back(b[k]);
     }
-  RankCorrelation result{static_cast<int>(kept_a.size()), missing, missing, missing};
+  RankCorrelation result{static_cast<int>(kept_a.size()), unknown, unknown, unknown};
   if (result.count < 3) return result;
   result.coefficient = linear_correlation(ranks(kept_a), ranks(kept_b));
   if (result.count < 4 || !(std::abs(result.coefficient) < 1.0)) return result;

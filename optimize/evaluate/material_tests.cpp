@@ -25,7 +25,7 @@ using solver::MaterialTestResult;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A sample narrower than this many discs, or than this many horizons, has no bulk to speak of.
-constexpr double fewest_discs_across = 10.0, fewest_horizons_across = 4.0;
+constexpr double fewest_across_a_sample = 10.0, fewest_horizons_across = 4.0;
 
 /// Calls work(k) for k < count on up to `threads` threads; the first exception is thrown again here.
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
@@ -149,7 +149,7 @@ DesignFile material_sample(const DesignFile& design) {
   options.solver.loading.until = options.measures.plateau_end;
   if (!options.packing.file.empty()) return sample;
   const double size = options.solver.test.size;
-  const double least = std::max(fewest_discs_across, fewest_horizons_across * options.solver.material.horizon) *
+  const double least = std::max(fewest_across_a_sample, fewest_horizons_across * options.solver.material.horizon) *
                        options.packing.mean_diameter;
   const auto length = [](double metres) { return io::quantity(metres, io::Dimension::length); };
   if (size < least)

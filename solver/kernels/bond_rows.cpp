@@ -1,5 +1,6 @@
 // What is here: making and changing the sliced rows of bonds.
 #include "solver/kernels/bond_rows.h"
+#include "solver/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +8,6 @@
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int64_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 enum Field { e0x = 0, e0y = 1, l0 = 2, neighbour_offset = 3 };
 constexpr double largest_stored = 65535.0;                             // of a 16-bit threshold

@@ -1,14 +1,9 @@
 // What is here: making and changing the sliced rows of near pairs.
 #include "solver/kernels/contact_rows.h"
+#include "solver/index.h"
 
 namespace perfora::solver {
-namespace {
-
-std::size_t at(std::int64_t k) {
-  return static_cast<std::size_t>(k);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void ContactRows::build(const NeighbourList& pairs, const DiscState& discs, const ContactLaw& law) {
   const std::int32_t n = discs.size();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/index.h"
 #include "solver/kernels/bond_rows.h"
 #include "solver/kernels/contact_rows.h"
 #include "solver/kernels/kernels.h"
@@ -12,10 +13,6 @@
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int32_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 /// Everything the loops over one chunk read and write.
 struct ChunkTask {

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/index.h"
 #include "solver/kernels/kernels.h"
 
 namespace perfora::solver {
 namespace {
-
-std::size_t at(std::int32_t k) {
-  return static_cast<std::size_t>(k);
-}
 
 struct Branch {
   double x, y;
