@@ -56,7 +56,7 @@ void add_evaluate(py::module_& module) {
   module.def(
       "evaluate",
       [](const py::object& source, int replicate, int threads, const std::optional<fs::path>& run_file,
-         const std::optional<fs::path>& packing_file, bool resume, bool force, double wall_time,
+         const std::optional<fs::path>& packing_file, bool resume, bool force, double wall_time, double memory,
          const py::object& progress) {
         const Design design = design_from(source);
         EvaluateOptions options;
@@ -67,6 +67,7 @@ void add_evaluate(py::module_& module) {
         options.resume = resume;
         options.force = force;
         options.wall_time = wall_time;
+        options.memory = memory;
         return watched(progress, [&](ProgressCallback callback, std::shared_ptr<Stop> stop) {
           options.progress = std::move(callback);
           options.stop = std::move(stop);
@@ -75,7 +76,7 @@ void add_evaluate(py::module_& module) {
       },
       py::arg("design"), py::kw_only(), py::arg("replicate") = 0, py::arg("threads") = 0,
       py::arg("run_file") = py::none(), py::arg("packing_file") = py::none(), py::arg("resume") = false,
-      py::arg("force") = false, py::arg("wall_time") = 0.0, py::arg("progress") = py::none());
+      py::arg("force") = false, py::arg("wall_time") = 0.0, py::arg("memory") = 0.0, py::arg("progress") = py::none());
 }
 
 CampaignOptions campaign_options(const fs::path& folder, int threads, bool resume, bool force) {

@@ -293,6 +293,7 @@ def evaluate(
     resume: bool = ...,
     force: bool = ...,
     wall_time: float = ...,
+    memory: float = ...,
     progress: _OnProgress = ...,
 ) -> Evaluation: ...
 

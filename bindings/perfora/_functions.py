@@ -58,14 +58,15 @@ def evaluate(
     resume: bool = False,
     force: bool = False,
     wall_time: float = 0.0,
+    memory: float = 0.0,
     progress: OnProgress = None,
 ) -> Evaluation:
     """Packs a design (a Design, a mapping or a file), compresses it and measures the curve: `perfora evaluate`.
 
     replicate: another packing and strength field of the design. threads: 0: one a processor; the result does not
     depend on it. run_file: R.h5 to write; a run that is stopped (wall_time in s, progress that says False, Ctrl-C)
-    goes on from it with resume. packing_file: the packing to start from. progress: called with a Progress every 0.05 %
-    of strain or so. Numerical trouble is no exception but the status "failed".
+    goes on from it with resume. packing_file: the packing to start from. memory: bytes that it may take by its
+    estimate; 0: what this process may. progress: called with a Progress every 0.05 % of strain or so. Numerical trouble is no exception but the status "failed".
     """
     return _core.evaluate(
         design,
@@ -76,6 +77,7 @@ def evaluate(
         resume=resume,
         force=force,
         wall_time=wall_time,
+        memory=memory,
         progress=progress,
     )
 
