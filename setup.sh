@@ -3,8 +3,8 @@
 # What is not: building and running (see ./run).
 #
 #   ./setup.sh             compiler and libraries
-#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, doxygen, what examples in Python use (about 400 MB; used by
-#                          .ci/run)
+#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, doxygen, what tests and
+#                          examples in Python use (about 450 MB; used by .ci/run)
 #   ./setup.sh --list      prints the package names, installs nothing
 set -euo pipefail
 
