@@ -12,7 +12,6 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/text.h"
-#include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/evaluation.h"
 #include "results/measure_table.h"
 
