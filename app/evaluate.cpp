@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/dakota.h"
 #include "app/outputs.h"
 #include "io/error.h"
 #include "io/text.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct EvaluateFlags {
   CommonFlags common;
+  std::vector<std::string> dakota;  ///< empty, or the files of parameters and results
   std::string design, output, packing;
   std::string until;
   bool resume = false, elastic = false;
@@ -30,10 +32,14 @@ struct EvaluateFlags {
 
 constexpr int most_replicates = 1000;
 
-optimize::DesignFile read_design(const EvaluateFlags& flags) {
+std::vector<std::string> overrides_of(const EvaluateFlags& flags) {
   std::vector<std::string> overrides = flags.common.overrides();
   if (!flags.until.empty()) overrides.push_back("loading.until=" + flags.until);
-  return optimize::DesignFile(flags.design, overrides);
+  return overrides;
+}
+
+optimize::DesignFile read_design(const EvaluateFlags& flags) {
+  return optimize::DesignFile(flags.design, overrides_of(flags));
 }
 
 optimize::EvaluateOptions evaluate_options(const EvaluateFlags& flags, ProgressLine& progress) {
@@ -177,9 +183,21 @@ void add_evaluate(CLI::App& program, int& exit_code) {
                    "Stop with a checkpoint after this many seconds (of each replicate)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  CLI::Option* dakota =
+      command->add_option("--dakota", flags->dakota,
+                          "One evaluation for Dakota: the variables of PARAMS are keys of the design, "
+                          "its responses are measures, RESULTS is written (docs/user/dakota.md)");
+  dakota->expected(2)->type_name("PARAMS RESULTS");
+  for (const char* other : {"--output", "--packing", "--elastic", "--resume", "--replicates", "--wall-time"})
+    dakota->excludes(command->get_option(other));
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
+    if (!flags->dakota.empty()) {
+      exit_code = evaluate_for_dakota({flags->design, flags->dakota.at(0), flags->dakota.at(1)}, flags->common,
+                                      overrides_of(*flags));
+      return;
+    }
     refuse_resume_with_force(flags->resume, flags->common.force);
     if (flags->elastic) {
       exit_code = evaluate_elastic(*flags);

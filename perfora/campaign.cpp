@@ -109,7 +109,7 @@ void check_options(const CampaignOptions& options) {
 Campaign run_campaign(const fs::path& file, const CampaignOptions& options) {
   return at_boundary([&] {
     check_options(options);
-    ProgressRelay relay(options.progress);
+    ProgressRelay relay(options.progress, options.stop);
     const std::string kind = results::kind_of_toml(file);
     if (kind == "study")
       run_study(file, options, relay);
@@ -132,7 +132,7 @@ Campaign run_ensemble(const Design& design, int replicates, const CampaignOption
       throw io::InputError({"replicates", 0, ""}, "is " + std::to_string(replicates), "a number from 1 is wanted");
     const optimize::DesignFile file = Inside::file(design).clone();
     static_cast<void>(file.validate());
-    ProgressRelay relay(options.progress);
+    ProgressRelay relay(options.progress, options.stop);
     optimize::EnsembleOptions work;
     work.evaluate.threads = thread_count(options.threads);
     work.evaluate.cancellation = relay.token();

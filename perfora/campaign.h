@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,9 @@ struct CampaignOptions {
   /// The program perfora, whose worker processes then evaluate: a crash or lack of memory costs one evaluation. Empty:
   /// threads of this process evaluate.
   std::filesystem::path program;
-  bool best_run_file = true;  ///< of a study: evaluate the best design once more, with its frames, into best.h5
-  ProgressCallback progress;  ///< may be empty
+  bool best_run_file = true;   ///< of a study: evaluate the best design once more, with its frames, into best.h5
+  ProgressCallback progress;   ///< may be empty
+  std::shared_ptr<Stop> stop;  ///< may be null; is requested where the callback says false, too
 };
 
 /// What is in the folder of a campaign.

@@ -38,6 +38,7 @@ bool holds_numbers(const io::Key& key) {
 }  // namespace
 
 Error::Error(const std::string& sentence) : std::runtime_error(sentence) {}
+SurroundingsError::SurroundingsError(const std::string& sentence) : std::runtime_error(sentence) {}
 
 Design::Design() : content_(std::make_unique<Content>()) {}
 Design::Design(const Design& other) : content_(std::make_unique<Content>(Content{other.content_->file.clone()})) {}
@@ -58,7 +59,15 @@ Design Design::from_toml(const std::string& text, const std::string& name) {
 }
 
 Design& Design::set(const std::string& key, const std::string& value) {
-  at_boundary([&] { content_->file.schema().set_override(key + "=" + value); });
+  at_boundary([&] {
+    try {
+      content_->file.schema().set_override(key + "=" + value);
+    } catch (const io::InputError& error) {
+      // Callers of the library know of no flag.
+      const std::string sentence = error.what(), flag = "--set: ";
+      throw Error(sentence.starts_with(flag) ? sentence.substr(flag.size()) : sentence);
+    }
+  });
   return *this;
 }
 

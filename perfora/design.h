@@ -13,12 +13,20 @@
 namespace perfora {
 
 /// Something that was given to the library is wrong: a key, a value, a file, a folder. what() is one sentence for
-/// people: where, what is wrong, what is allowed, what to do. Numerical trouble is no error but a Status; a disk that
-/// fails or memory that runs out is a std::exception of another kind.
+/// people: where, what is wrong, what is allowed, what to do. Numerical trouble is no error but a Status.
 class Error : public std::runtime_error {
  public:
   /// An error that says `sentence`.
   explicit Error(const std::string& sentence);
+};
+
+/// The surroundings failed, not what was given: a disk that is full, a worker that was lost. Never a result of a
+/// design; the same call may succeed later. what() is one sentence that says what to do. Memory that runs out is
+/// std::bad_alloc.
+class SurroundingsError : public std::runtime_error {
+ public:
+  /// An error that says `sentence`.
+  explicit SurroundingsError(const std::string& sentence);
 };
 
 /// What a key of a design holds.

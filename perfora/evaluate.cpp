@@ -4,7 +4,6 @@
 #include "io/memory.h"
 #include "optimize/evaluate/run_output.h"
 #include "perfora/inside.h"
-#include "results/json.h"
 
 namespace perfora {
 
@@ -12,7 +11,7 @@ Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
   return at_boundary([&] {
     refuse_resume_with_force(options.resume, options.force);
     const optimize::DesignFile file = Inside::file(design).clone();
-    ProgressRelay relay(options.progress);
+    ProgressRelay relay(options.progress, options.stop);
     optimize::EvaluateOptions work;
     work.threads = thread_count(options.threads);
     work.run_file = options.run_file;
@@ -26,7 +25,7 @@ Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
                                      options.memory > 0.0 ? options.memory : io::usable_memory_bytes());
     const results::Evaluation found = optimize::evaluate_design(file, work, options.replicate);
     relay.rethrow();
-    Evaluation made = public_evaluation(found, results::to_json(found, false));
+    Evaluation made = public_evaluation(found, optimize::evaluation_record(file, found));
     for (std::string& warning : optimize::validity_warnings(found, file.design().solver.loading))
       prepared.warnings.push_back(std::move(warning));
     made.warnings = std::move(prepared.warnings);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "perfora/design.h"
@@ -30,6 +31,26 @@ struct Progress {
 /// out of the function that was called.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
+/// Asks work to stop, from any thread or a signal handler: it is given with the options of the work, which stops within
+/// a few steps and keeps what it has. There is no way back: work that is begun afterwards takes a new one.
+class Stop {
+ public:
+  Stop();
+  ~Stop();
+  Stop(const Stop&) = delete;
+  Stop& operator=(const Stop&) = delete;
+
+  /// Asks.
+  void request() noexcept;
+  /// Whether it was asked.
+  bool requested() const noexcept;
+
+ private:
+  friend struct Inside;
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
 /// How a design is evaluated.
 struct EvaluateOptions {
   int threads = 0;                     ///< 0: one a processor. The result does not depend on it
@@ -41,10 +62,11 @@ struct EvaluateOptions {
   double wall_time = 0.0;              ///< s, after which it stops with a checkpoint; 0: none
   double memory = 0.0;                 ///< bytes it may take by its estimate; 0: what this process may
   ProgressCallback progress;           ///< may be empty
+  std::shared_ptr<Stop> stop;          ///< may be null; is requested where the callback says false, too
 };
 
-/// Packs a design, compresses it and measures the curve, what `perfora evaluate` does. A stop (by the callback or the
-/// wall time) is Status::stopped; numerical trouble is Status::failed. Throws Error for a design that cannot be
+/// Packs a design, compresses it and measures the curve, what `perfora evaluate` does. A stop (by the callback, a Stop
+/// or the wall time) is Status::stopped; numerical trouble is Status::failed. Throws Error for a design that cannot be
 /// evaluated or would take more than `memory`, and a run file that exists or is of another design.
 Evaluation evaluate(const Design& design, const EvaluateOptions& options = {});
 

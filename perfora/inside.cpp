@@ -32,8 +32,38 @@ Design Inside::design(optimize::DesignFile file) {
   return made;
 }
 
-ProgressRelay::ProgressRelay(ProgressCallback callback)
-    : callback_(std::move(callback)), begun_(Clock::now()), part_begun_(begun_) {}
+io::CancellationSource& Inside::source(Stop& stop) {
+  return stop.content_->source;
+}
+
+const results::Evaluation& Inside::evaluation(const Evaluation& evaluation) {
+  if (!evaluation.content_)
+    throw io::InputError({"evaluation", 0, ""}, "was not made by the library", "",
+                         "take one that evaluate(), read_run() or Evaluation::from_json() gave");
+  return evaluation.content_->all;
+}
+
+Evaluation Inside::with_content(Evaluation evaluation, const results::Evaluation& all) {
+  evaluation.content_ = std::make_shared<const Evaluation::Content>(Evaluation::Content{all});
+  return evaluation;
+}
+
+Stop::Stop() : content_(std::make_unique<Content>()) {}
+Stop::~Stop() = default;
+
+void Stop::request() noexcept {
+  content_->source.request();
+}
+
+bool Stop::requested() const noexcept {
+  return content_->source.token().requested();
+}
+
+ProgressRelay::ProgressRelay(ProgressCallback callback, std::shared_ptr<Stop> stop)
+    : callback_(std::move(callback)),
+      stop_(stop ? std::move(stop) : std::make_shared<Stop>()),
+      begun_(Clock::now()),
+      part_begun_(begun_) {}
 
 results::ProgressCallback ProgressRelay::callback() {
   if (!callback_) return {};
@@ -72,10 +102,10 @@ void ProgressRelay::tell(Progress progress) {
   progress.seconds = seconds_between(begun_, now);
   if (last_ > first_) progress.seconds_left = seconds_between(part_begun_, now) * (1.0 - last_) / (last_ - first_);
   try {
-    if (!callback_(progress)) source_.request();
+    if (!callback_(progress)) stop_->request();
   } catch (...) {
     thrown_ = std::current_exception();
-    source_.request();
+    stop_->request();
   }
 }
 
@@ -138,7 +168,7 @@ Evaluation public_evaluation(const results::Evaluation& evaluation, const nlohma
   made.seconds = evaluation.performance.seconds;
   made.verdict = verdict_in(record);
   made.record = record.dump(2);
-  return made;
+  return Inside::with_content(std::move(made), evaluation);
 }
 
 }  // namespace perfora

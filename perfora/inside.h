@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,6 +24,7 @@
 #include "perfora/results.h"
 #include "results/evaluation.h"
 #include "results/progress.h"
+#include "results/run_file.h"
 
 namespace perfora {
 
@@ -29,15 +32,26 @@ struct Design::Content {
   optimize::DesignFile file;
 };
 
+struct Stop::Content {
+  io::CancellationSource source;
+};
+
+struct Evaluation::Content {
+  results::Evaluation all;
+};
+
 /// Opens designs to the sources of this room.
 struct Inside {
   static const optimize::DesignFile& file(const Design& design) { return design.content_->file; }
   static optimize::DesignFile& file(Design& design) { return design.content_->file; }
   static Design design(optimize::DesignFile file);
+  static io::CancellationSource& source(Stop& stop);
+  static const results::Evaluation& evaluation(const Evaluation& evaluation);
+  static Evaluation with_content(Evaluation evaluation, const results::Evaluation& all);
 };
 
-/// Does `work`; what the rooms throw about something given to them, or about the surroundings, comes out as Error. The
-/// library prints nothing but warnings.
+/// Does `work`; what the rooms throw about something given to them comes out as Error, what they throw about the
+/// surroundings as SurroundingsError. The library prints nothing but warnings.
 template <class Work>
 auto at_boundary(Work&& work) {
   io::set_verbosity(io::Verbosity::quiet);
@@ -46,7 +60,9 @@ auto at_boundary(Work&& work) {
   } catch (const io::InputError& error) {
     throw Error(error.what());
   } catch (const io::SurroundingsError& error) {
-    throw Error(error.what());
+    throw SurroundingsError(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw SurroundingsError(error.what());
   } catch (const nlohmann::json::exception& error) {
     throw Error(std::string("damaged record: ") + error.what());
   }
@@ -55,12 +71,13 @@ auto at_boundary(Work&& work) {
 /// A user's callback as the rooms take it; its answer becomes a request to stop.
 class ProgressRelay {
  public:
-  explicit ProgressRelay(ProgressCallback callback);
+  /// `stop` may be null; otherwise it is what a callback that answers false requests.
+  ProgressRelay(ProgressCallback callback, std::shared_ptr<Stop> stop);
 
   /// Empty when the user gave none.
   results::ProgressCallback callback();
   std::function<void(const optimize::WorkProgress&)> work_callback(const std::string& kind);
-  io::Cancellation token() const { return source_.token(); }
+  io::Cancellation token() const { return Inside::source(*stop_).token(); }
   /// Throws what the user's callback threw.
   void rethrow() const;
 
@@ -69,7 +86,7 @@ class ProgressRelay {
   void tell(Progress progress);
 
   ProgressCallback callback_;
-  io::CancellationSource source_;
+  std::shared_ptr<Stop> stop_;
   std::mutex mutex_;
   std::exception_ptr thrown_;
   Clock::time_point begun_, part_begun_;
@@ -82,10 +99,14 @@ void refuse_resume_with_force(bool resume, bool force);
 int thread_count(int threads);
 
 Status status_of(results::RunStatus status);
+Discs discs_of(const geometry::Packing& packing);
+/// Rims of the openings as polygons.
+std::vector<Outline> outlines_of(const geometry::PerforationLayout& layout);
 /// The measures of the packing alone.
 std::vector<Measure> measures_of(const results::PackSummary& pack);
 /// The history's columns for people as a table.
 Table table_of(const results::History& history);
+Run public_run(const results::RunResult& found);
 /// The verdict that a record holds; empty texts where it holds none.
 Verdict verdict_in(const nlohmann::json& record);
 /// `record`: perfora.evaluate/1 of the evaluation.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "io/files.h"
 #include "io/lock.h"
@@ -22,10 +23,6 @@ namespace {
 /// Arcs become chords that leave the rim by at most this share of the largest side of the block.
 constexpr double outline_tolerance = 1e-5;
 
-Discs discs_of(const geometry::Packing& packing) {
-  return {packing.x, packing.y, packing.radius};
-}
-
 void add_arc(const geometry::Arc& arc, double tolerance, Outline& outline) {
   constexpr double corner = 1e-12;
   int chords = 0;
@@ -42,6 +39,12 @@ void add_arc(const geometry::Arc& arc, double tolerance, Outline& outline) {
   }
 }
 
+}  // namespace
+
+Discs discs_of(const geometry::Packing& packing) {
+  return {packing.x, packing.y, packing.radius};
+}
+
 std::vector<Outline> outlines_of(const geometry::PerforationLayout& layout) {
   const double tolerance = outline_tolerance * std::max(layout.width, layout.height);
   std::vector<Outline> outlines;
@@ -52,6 +55,8 @@ std::vector<Outline> outlines_of(const geometry::PerforationLayout& layout) {
   }
   return outlines;
 }
+
+namespace {
 
 Packing public_packing(const geometry::Packing& periodic, const geometry::Packing& clipped,
                        const geometry::PerforationLayout& layout, const results::PackSummary& summary,
@@ -88,7 +93,22 @@ Packing pack(const Design& design, const PackOptions& options) {
     }
     optimize::EvaluateOptions making;
     making.threads = thread_count(options.threads);
-    const auto [packed, performance, record] = optimize::pack_with_record(file, making, options.replicate);
+    ProgressRelay relay(options.progress, options.stop);
+    making.cancellation = relay.token();
+    making.progress = relay.callback();
+    std::optional<optimize::RecordedPacking> made;
+    try {
+      made = optimize::pack_with_record(file, making, options.replicate);
+    } catch (const io::Cancelled&) {
+    }
+    relay.rethrow();
+    if (!made) {
+      Packing stopped;
+      stopped.status = Status::stopped;
+      stopped.reason = "stopped";
+      return stopped;
+    }
+    const auto& [packed, performance, record] = *made;
     if (!options.file.empty() && packed.periodic.quality.reached)
       optimize::write_pack_file(options.file, file, packed, record, "", options.replicate);
     return public_packing(packed.periodic, packed.clipped, packed.layout, packed.summary, record);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "perfora/design.h"
+#include "perfora/evaluate.h"
 #include "perfora/results.h"
 
 namespace perfora {
@@ -27,7 +29,7 @@ struct Outline {
 
 /// A packing: the discs that a block consists of.
 struct Packing {
-  Status status = Status::completed;  ///< failed: the wanted density was not reached
+  Status status = Status::completed;  ///< failed: the wanted density was not reached; stopped: nothing is there
   std::string reason;                 ///< in words
   double width = 0.0;                 ///< of the block, m
   double height = 0.0;                ///< of the block, m
@@ -46,10 +48,12 @@ struct PackOptions {
   int replicate = 0;           ///< 0, 1, ...: packings of other seeds of the same design
   std::filesystem::path file;  ///< packing file to write; empty: none
   bool force = false;          ///< replace a file that exists
+  ProgressCallback progress;   ///< may be empty
+  std::shared_ptr<Stop> stop;  ///< may be null; is requested where the callback says false, too
 };
 
-/// Makes the packing of a design, what `perfora pack` does. No file is written when it was not reached. Throws Error
-/// for a design that cannot be laid out and a file that exists.
+/// Makes the packing of a design, what `perfora pack` does. No file is written when it was not reached or stopped.
+/// Throws Error for a design that cannot be laid out and a file that exists.
 Packing pack(const Design& design, const PackOptions& options = {});
 
 /// Reads a packing file P.h5. Throws Error for a file that is missing, damaged or no packing.

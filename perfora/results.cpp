@@ -104,22 +104,41 @@ std::span<const double> Evaluation::stress() const {
   return curve.values("stress_yy");
 }
 
-std::string Evaluation::to_json() const {
-  return record;
+std::string Evaluation::to_json(bool with_curve) const {
+  if (!with_curve) return record;
+  return at_boundary([&] {
+    auto all = nlohmann::json::parse(record);
+    all["curve"] = results::to_json(Inside::evaluation(*this), true).at("curve");
+    return all.dump(2);
+  });
+}
+
+Evaluation Evaluation::from_json(const std::string& text) {
+  return at_boundary([&] {
+    try {
+      auto record = nlohmann::json::parse(text);
+      const results::Evaluation all = results::evaluation_from_json(record);
+      record.erase("curve");
+      return public_evaluation(all, record);
+    } catch (const std::invalid_argument& error) {
+      throw io::InputError({"evaluation", 0, ""}, error.what());
+    }
+  });
+}
+
+Run public_run(const results::RunResult& found) {
+  Run run;
+  results::Evaluation evaluation = results::evaluation_from_json(found.summary);
+  evaluation.curve = found.history;
+  run.evaluation = public_evaluation(evaluation, found.summary);
+  run.design = found.provenance.config;
+  run.program_version = found.provenance.program_version;
+  for (const results::FrameInfo& frame : found.frames) run.frame_strains.push_back(frame.strain);
+  return run;
 }
 
 Run read_run(const fs::path& file) {
-  return at_boundary([&] {
-    const results::RunResult found = results::read_run(file);
-    Run run;
-    results::Evaluation evaluation = results::evaluation_from_json(found.summary);
-    evaluation.curve = found.history;
-    run.evaluation = public_evaluation(evaluation, found.summary);
-    run.design = found.provenance.config;
-    run.program_version = found.provenance.program_version;
-    for (const results::FrameInfo& frame : found.frames) run.frame_strains.push_back(frame.strain);
-    return run;
-  });
+  return at_boundary([&] { return public_run(results::read_run(file)); });
 }
 
 Table read_table(const fs::path& file) {

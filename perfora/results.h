@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,7 +73,7 @@ struct Evaluation {
   std::vector<std::string> warnings;  ///< what speaks against its numbers, a sentence each; not kept in files
   Verdict verdict;                    ///< on this one block, which shows little; an ensemble's shows more
   double seconds = 0.0;               ///< wall time of the compression
-  std::string record;                 ///< what to_json() gives
+  std::string record;                 ///< what to_json() gives without the curve
 
   /// The value of a measure, NaN where it was not reached. Throws Error for an unknown key.
   double measure(const std::string& key) const;
@@ -80,8 +81,17 @@ struct Evaluation {
   std::span<const double> strain() const;
   /// Stress of the curve, Pa, compression positive; as long as strain().
   std::span<const double> stress() const;
-  /// The record perfora.evaluate/1 (docs/user/formats.md), what `perfora evaluate --json` prints; without the curve.
-  std::string to_json() const;
+  /// The record perfora.evaluate/1 (docs/user/formats.md), what `perfora evaluate --json` prints; `with_curve` adds the
+  /// history, all of it, so that from_json() gives the same back in another process. Throws Error for the latter of an
+  /// evaluation that was not made by the library.
+  std::string to_json(bool with_curve = false) const;
+  /// An evaluation from its record, its curve from the history in it. Throws Error for a text that is none.
+  static Evaluation from_json(const std::string& text);
+
+ private:
+  friend struct Inside;
+  struct Content;
+  std::shared_ptr<const Content> content_;
 };
 
 /// A run file.

@@ -121,6 +121,24 @@ TEST(PublicEvaluation, RunFileGivesTheSameBack) {
   EXPECT_EQ(evaluate(small_block(), options).to_json(), made.to_json());  // read, not run
 }
 
+TEST(PublicEvaluation, WishesHaveAVerdict) {
+  Design wishing = small_block();
+  wishing.set("target.plateau_stress", "1 MPa").set("target.window", "[0.002, 0.008]");
+  const Evaluation found = evaluate(wishing);
+  EXPECT_FALSE(found.verdict.outcome.empty());
+  EXPECT_THAT(found.verdict.text, HasSubstr("plateau stress"));
+  EXPECT_TRUE(evaluate(small_block()).verdict.outcome.empty());
+}
+
+TEST(PublicEvaluation, GoesThroughJsonWithItsCurve) {
+  const Evaluation made = evaluate(small_block());
+  const Evaluation back = Evaluation::from_json(made.to_json(true));
+  EXPECT_EQ(back.to_json(true), made.to_json(true));
+  EXPECT_EQ(back.curve.columns.back().values, made.curve.columns.back().values);
+  EXPECT_NE(error_of([] { static_cast<void>(Evaluation::from_json("{}")); }), "");
+  EXPECT_NE(error_of([] { static_cast<void>(Evaluation().to_json(true)); }), "");
+}
+
 TEST(PublicEvaluation, WrongInputIsAnError) {
   Design overlapping = small_block();
   overlapping.set("layout.diameter", "14 mm");

@@ -23,6 +23,7 @@ const std::vector<Confined>& confined_libraries() {
       {std::regex("nlopt\\.h(pp)?"), std::regex("optimize/search/[^/]+\\.cpp"),
        "NLopt belongs in one optimize/search/*.cpp only"},
       {std::regex("toml\\+\\+/.*|toml\\.hpp"), std::regex("io/[^/]+\\.cpp"), "toml++ belongs in one io/*.cpp only"},
+      {std::regex("pybind11/.*|Python\\.h"), std::regex("bindings/[^/]+\\.(cpp|h)"), "Python belongs in bindings only"},
       {std::regex("H5.*|hdf5(_hl)?\\.h"), std::regex("io/hdf5(_[a-z]+)?\\.cpp|io/hdf5_[a-z]+\\.h"),
        "HDF5's C API belongs in io/hdf5*.cpp only"},
   };
@@ -53,6 +54,8 @@ void check_include(const std::string& path, const std::string& include, std::vec
     out.push_back(path + ": include \"" + include + "\" by its room, not by \"..\"");
   if (to && to != from && std::find(from->knows.begin(), from->knows.end(), to->name) == from->knows.end())
     out.push_back(path + ": includes " + include + ", but " + from->name + " knows nothing of " + to->name);
+  if (lies_in(path, "bindings") && to && to->name == "perfora" && !is_public(include))
+    out.push_back(path + ": includes " + include + ", which is no public header");
   if (is_public(path) && !is_public(include) && include.find('.') != std::string::npos)
     out.push_back(path + ": includes " + include + ", which is neither of the standard library nor installed with it");
   for (const auto& library : confined_libraries())

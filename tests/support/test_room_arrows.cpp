@@ -21,7 +21,7 @@ std::map<std::string, std::string> project_sources() {
   const fs::path source = PERFORA_SOURCE_DIR;
   std::map<std::string, std::string> files;
   const std::vector<std::string> folders = {"io",      "geometry", "results", "solver", "optimize",
-                                            "perfora", "report",   "app",     "tests"};
+                                            "perfora", "bindings", "report",  "app",    "tests"};
   for (const auto& folder : folders) {
     if (!fs::exists(source / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
@@ -88,6 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"optimize/search/x.h", "\"perfora/design.h\"", "knows nothing of perfora"},
         Case{"perfora/x.cpp", "\"optimize/search/study.h\"", ""},
         Case{"perfora/x.cpp", "\"report/plot.h\"", "perfora knows nothing of report"},
+        Case{"bindings/x.cpp", "\"perfora/study.h\"", ""}, Case{"bindings/x.cpp", "<pybind11/numpy.h>", ""},
+        Case{"bindings/x.cpp", "\"results/history.h\"", "bindings knows nothing of results"},
+        Case{"bindings/x.cpp", "\"perfora/inside.h\"", "no public header"},
+        Case{"app/x.cpp", "<pybind11/numpy.h>", "Python belongs"},
         Case{"perfora/x.h", "\"results/history.h\"", "neither of the standard library"},
         Case{"perfora/x.h", "\"perfora/inside.h\"", "neither of the standard library"},
         Case{"perfora/x.h", "<nlohmann/json.hpp>", "neither of the standard library"},
