@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/search/model_searcher.h"
 #include "optimize/search/nlopt_searcher.h"
+#include "optimize/search/sampling_searcher.h"
 
 namespace perfora::optimize {
 namespace {
@@ -20,7 +22,7 @@ std::vector<double> on_grid(std::vector<double> point) {
 }
 
 const Searchers& built_in_searchers() {
-  static const Searchers all{make_nlopt_searcher()};
+  static const Searchers all{make_nlopt_searcher(), make_model_searcher(), make_sampling_searcher()};
   return all;
 }
 

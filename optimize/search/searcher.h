@@ -50,6 +50,8 @@ struct Trace {
   /// Visits of each batch, in the order of `visits`: as many entries in every trace of a stage, together the batches
   /// that SearchTask::batches holds and, at most, one more. Empty for a searcher that does not ask in batches.
   std::vector<int> batches = {};
+  std::string note =
+      {};  ///< what a user should know of how the last points were chosen; a sentence without a full stop
 };
 
 /// A search algorithm, or a family of them, behind `study.algorithm`. It asks and is told through the store: ask() is a
