@@ -10,7 +10,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config              # build
-  libcgal-dev libeigen3-dev libnlopt-cxx-dev    # geometry, linear algebra, search
+  libcgal-dev libeigen3-dev libboost-dev libnlopt-cxx-dev  # geometry, linear algebra, models, search
   libhdf5-dev zlib1g-dev libtomlplusplus-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
   libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks

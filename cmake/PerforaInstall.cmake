@@ -4,7 +4,7 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Perfora)
-foreach(room IN ITEMS io geometry results solver evaluate campaign search perfora)
+foreach(room IN ITEMS io geometry results solver evaluate campaign model search perfora)
   list(APPEND libraries perfora_${room})
 endforeach()
 install(TARGETS ${libraries} EXPORT PerforaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -79,9 +79,9 @@ const Candidate& CandidateBook::at(int arm, std::span<const double> values) {
   return candidates_.emplace(place, make_candidate(study_, arm, values)).first->second;
 }
 
-const std::string& CandidateBook::key(const Candidate& candidate, int replicate) {
-  auto& key = keys_[{&candidate, replicate}];
-  if (key.empty()) key = candidate.request(replicate).key();
+const std::string& CandidateBook::key(const Candidate& candidate, int replicate, std::size_t fidelity) {
+  auto& key = keys_[{&candidate, replicate, fidelity}];
+  if (key.empty()) key = candidate.request(replicate, fidelity).key();
   return key;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,15 +39,15 @@ class CandidateBook {
   explicit CandidateBook(const Study& study) : study_(study) {}
   /// References stay valid as long as the book.
   const Candidate& at(int arm, std::span<const double> values);
-  /// Key of the request for one replicate, worked out once.
-  const std::string& key(const Candidate& candidate, int replicate);
+  /// Key of the request for one replicate at one fidelity, worked out once.
+  const std::string& key(const Candidate& candidate, int replicate, std::size_t fidelity = 0);
   /// The start design: the candidate of the arm and bounds that hold it, or one of its own with arm -1.
   const Candidate& start();
 
  private:
   const Study& study_;
   std::map<std::pair<int, std::vector<double>>, Candidate> candidates_;
-  std::map<std::pair<const Candidate*, int>, std::string> keys_;
+  std::map<std::tuple<const Candidate*, int, std::size_t>, std::string> keys_;
 };
 
 /// The design a candidate stands for, with output options of the start design: what best.toml holds.

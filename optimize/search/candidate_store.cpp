@@ -2,6 +2,7 @@
 #include "optimize/search/candidate_store.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace perfora::optimize {
 
@@ -33,6 +34,28 @@ std::vector<const Evaluation*> CandidateStore::evaluations(const Candidate& cand
   for (int replicate = first; replicate < first + count; ++replicate)
     known.push_back(answer_for(candidate.request(replicate), book_.key(candidate, replicate), answers_));
   return known;
+}
+
+std::vector<Observed> CandidateStore::observed(std::span<const Candidate* const> visited, int replicates) const {
+  std::set<const Candidate*> designs = told_;
+  designs.insert(visited.begin(), visited.end());
+  std::vector<Observed> found;
+  for (const Candidate* candidate : designs) {
+    for (std::size_t fidelity = 0; fidelity < candidate->requests.size(); ++fidelity) {
+      Observed one{candidate, study_.point_of(candidate->values), fidelity, {}};
+      for (int replicate = 0; replicate < replicates; ++replicate) {
+        const std::string& key = book_.key(*candidate, replicate, fidelity);
+        if (const Evaluation* known = answer_for(candidate->request(replicate, fidelity), key, answers_))
+          one.replicates.push_back(known);
+      }
+      if (!one.replicates.empty()) found.push_back(std::move(one));
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Observed& a, const Observed& b) {
+    return std::tie(a.candidate->arm, a.candidate->values, a.fidelity) <
+           std::tie(b.candidate->arm, b.candidate->values, b.fidelity);
+  });
+  return found;
 }
 
 }  // namespace perfora::optimize

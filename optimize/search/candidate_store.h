@@ -1,7 +1,9 @@
-// What is here: the known evaluations of a study as candidates with their scores: what a search is told.
+// What is here: the known evaluations of a study as candidates with their scores, and as the list of designs that a
+// model learns from: what a search is told.
 // What is not: which candidates are requested (searcher.h), the journal (campaign/evaluation_queue.h).
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,15 @@ struct Visit {
   bool answered = false;  ///< false: waits for its simulations
   double score = 0.0;     ///< finite; with the penalties of objective.h and constraints.h
   Score detail;           ///< of the simulations, where there were any
+};
+
+/// What is known of one design at one fidelity: all that a model learns from. The resolved design (the fidelity's
+/// changes made) is *candidate->requests[fidelity].design.
+struct Observed {
+  const Candidate* candidate = nullptr;       ///< with arm, values, layout, requests
+  std::vector<double> point;                  ///< of the unit cube; a start outside the bounds is moved into them
+  std::size_t fidelity = 0;                   ///< index in Study::fidelities
+  std::vector<const Evaluation*> replicates;  ///< those known, by replicate; with status, measures, coarse curve
 };
 
 /// A view of a study's evaluations for as long as they do not change. Candidates are made when first looked at.
@@ -37,10 +48,19 @@ class CandidateStore {
   /// Evaluations of a candidate for replicates [first, first + count), in order; nullptr for those not known.
   std::vector<const Evaluation*> evaluations(const Candidate& candidate, int first, int count) const;
 
+  /// Adds a design that a search is told of beside those it visits: the start, the designs of a map. Once is enough.
+  void observe(const Candidate& candidate) { told_.insert(&candidate); }
+  /// The designs of observe() and of `visited` that have an evaluation, each once a fidelity, with replicates below
+  /// `replicates`; by arm, values and fidelity, whatever the order in which they were added or answered. Candidates
+  /// that break a constraint have none.
+  std::vector<Observed> observed(std::span<const Candidate* const> visited, int replicates) const;
+  const Study& study() const { return study_; }
+
  private:
   const Study& study_;
   CandidateBook& book_;
   const Answers& answers_;
+  std::set<const Candidate*> told_;
 };
 
 }  // namespace perfora::optimize

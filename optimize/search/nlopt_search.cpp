@@ -209,6 +209,42 @@ SearchEnd run_search(const SearchOptions& options, const Objective& objective, c
   return callbacks.end;
 }
 
+std::vector<double> descend(const std::function<double(std::span<const double>, std::span<double>)>& function,
+                            std::vector<double> start, const std::vector<double>& low, const std::vector<double>& high,
+                            int maxeval) {
+  struct Call {
+    const std::function<double(std::span<const double>, std::span<double>)>& function;
+    std::vector<double> best, unused;
+    double least = std::numeric_limits<double>::infinity();
+    std::exception_ptr error;
+  };
+  Call call{function, start, std::vector<double>(start.size()), std::numeric_limits<double>::infinity(), nullptr};
+  nlopt::opt search(nlopt::LD_LBFGS, static_cast<unsigned>(start.size()));
+  const auto callback = [](unsigned n, const double* x, double* gradient, void* data) noexcept {
+    auto& one = *static_cast<Call*>(data);
+    try {
+      const std::span<const double> at(x, n);
+      const double value = one.function(at, {gradient ? gradient : one.unused.data(), n});
+      if (value < one.least) {
+        one.least = value;
+        one.best.assign(at.begin(), at.end());
+      }
+      return value;
+    } catch (...) {
+      one.error = std::current_exception();
+      return after_the_end;
+    }
+  };
+  search.set_lower_bounds(low);
+  search.set_upper_bounds(high);
+  search.set_maxeval(maxeval);
+  search.set_ftol_rel(1e-6);
+  search.set_min_objective(callback, &call);
+  static_cast<void>(optimize(search, start));  // However it ends, the best point is known.
+  if (call.error) std::rethrow_exception(call.error);
+  return call.best;
+}
+
 const std::vector<std::string>& derivative_free_algorithms() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> found;

@@ -45,6 +45,12 @@ struct SearchEnd {
 /// own "best" is not returned: it is not always the best it saw.
 SearchEnd run_search(const SearchOptions& options, const Objective& objective, const Constraints& constraints = {});
 
+/// The lowest point that NLopt's LD_LBFGS sees from `start` within the bounds, for a smooth function that writes its
+/// gradient to the second span. Not a search of a study: what models are fitted by. At most `maxeval` calls.
+std::vector<double> descend(const std::function<double(std::span<const double>, std::span<double>)>& function,
+                            std::vector<double> start, const std::vector<double>& low, const std::vector<double>& high,
+                            int maxeval = 80);
+
 /// Derivative-free algorithms that keep bounds, by NLopt's own names without the prefix "NLOPT_".
 const std::vector<std::string>& derivative_free_algorithms();
 

@@ -12,12 +12,19 @@
 
 namespace perfora::optimize {
 
+/// Points of the unit cube.
+using Points = std::vector<std::vector<double>>;
+
 /// One search within a stage.
 struct SearchTask {
   int arm = 0;                ///< index in Study::arms
   int maxeval = 1;            ///< points in total
   std::uint32_t seed = 1;     ///< of its random numbers
   std::vector<double> start;  ///< where a local algorithm begins, each coordinate in [0, 1]
+  /// Points of this arm in every batch that is journalled, batch by batch; one may be empty, as the points of a batch
+  /// are of all tasks together. A searcher that asks in batches takes them as given and computes only the next batch.
+  /// Left empty, it computes all of them anew: the same points (a check, since batches are journalled as they are run).
+  std::vector<Points> batches = {};
 };
 
 /// One stage of a study: searches beside each other with one algorithm. Settings that an algorithm does not know are
@@ -30,6 +37,7 @@ struct SearchStage {
   double xtol = 0.0;                 ///< as a fraction of the bounds; 0: off
   double ftol = 0.0;                 ///< on the score; 0: off
   std::optional<double> stop_score;  ///< a search ends at a score as low as this
+  int batch = 4;  ///< points that are asked together, over all tasks; fixed by the study, never by the workers
 };
 
 /// One search as far as the known evaluations carry it. Its unanswered visits are what it asks for.
@@ -39,6 +47,11 @@ struct Trace {
   std::vector<Visit> visits;
   bool finished = false;
   std::string reason;  ///< why it finished: "maxeval reached", ...
+  /// Visits of each batch, in the order of `visits`: as many entries in every trace of a stage, together the batches
+  /// that SearchTask::batches holds and, at most, one more. Empty for a searcher that does not ask in batches.
+  std::vector<int> batches = {};
+  std::string note =
+      {};  ///< what a user should know of how the last points were chosen; a sentence without a full stop
 };
 
 /// A search algorithm, or a family of them, behind `study.algorithm`. It asks and is told through the store: ask() is a
@@ -59,6 +72,9 @@ class Searcher {
   /// The name as algorithms() has it, for any way of writing it that is accepted; otherwise empty, and `problem` says
   /// in one clause why.
   virtual std::string canonical_name(const std::string& name, std::string& problem) const = 0;
+  /// Whether it asks in batches, each to be journalled before it runs and given back in SearchTask::batches. All tasks
+  /// of a stage are then one search that shares the sum of their maxeval.
+  virtual bool asks_in_batches() const { return false; }
   /// Whether an algorithm begins at a given point and stays near it, so that it can be a second stage.
   virtual bool is_local(const std::string& algorithm) const = 0;
 
@@ -75,6 +91,10 @@ class Searcher {
   /// nothing to ask before an open visit is answered. A trace that is not finished has at least one open visit.
   virtual std::vector<Trace> ask(const SearchStage& stage, const CandidateStore& store) const = 0;
 };
+
+/// The nearest point whose coordinates are multiples of 1/4096: what searchers ask for that compute their points with
+/// rounding, so that a last digit that differs from machine to machine makes no other design.
+std::vector<double> on_grid(std::vector<double> point);
 
 using Searchers = std::vector<std::shared_ptr<const Searcher>>;
 

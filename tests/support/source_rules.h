@@ -27,12 +27,15 @@ inline const std::vector<Room> rooms = {
     {"solver", {"io", "geometry", "results"}},
     {"optimize/evaluate", {"io", "geometry", "results", "solver"}},
     {"optimize/campaign", {"io", "geometry", "results", "solver", "optimize/evaluate"}},
-    {"optimize/search", {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign"}},
+    {"optimize/model", {"io", "geometry", "results", "solver", "optimize/evaluate"}},
+    {"optimize/search",
+     {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/model"}},
     {"perfora", {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/search"}},
     {"bindings", {"perfora"}},
     {"report", {"io", "geometry", "results"}},
     {"app",
-     {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/search", "report"}},
+     {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/model",
+      "optimize/search", "report"}},
 };
 
 /// Headers of the room perfora that are not installed; the others include the standard library and each other alone.

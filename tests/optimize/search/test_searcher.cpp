@@ -167,5 +167,37 @@ TEST_F(SearcherTest, ACandidateHasARequestAFidelity) {
   EXPECT_NE(coarse.key(), fine.key());
 }
 
+// What a model learns from: designs that are told or visited, at every fidelity, in an order of their own.
+TEST_F(SearcherTest, ObservedDesignsAreOrderedByWhatTheyAre) {
+  Study ladder = study("maxeval = 3\nreplicates = 2", "rows = [1, 2]");
+  ladder.fidelities.push_back({"short", {}, 0.3});
+  CandidateBook book(ladder);
+  const Candidate& late = book.at(1, std::vector<double>{0.016, 0.0});
+  const Candidate& early = book.at(0, std::vector<double>{0.018, 0.0});
+  const Candidate& unknown = book.at(0, std::vector<double>{0.019, 0.0});
+  Answers known;
+  for (const Request& request : {late.request(1), late.request(0), early.request(0), early.request(5)})
+    known.add(request.key(), fake_evaluation(request));
+  known.add(late.request(0, 1).key(), fake_evaluation(late.request(0, 1)));
+  CandidateStore store(ladder, book, known);
+  store.observe(late);
+  const std::vector<const Candidate*> visited{&unknown, &early, &late};
+  const std::vector<Observed> observed = store.observed(visited, 2);
+  ASSERT_EQ(observed.size(), 3U);
+  EXPECT_EQ(observed[0].candidate, &early);
+  EXPECT_EQ(observed[0].replicates.size(), 1U) << "replicate 5 is not among the first two";
+  EXPECT_EQ(observed[1].candidate, &late);
+  EXPECT_EQ(observed[1].fidelity, 0U);
+  ASSERT_EQ(observed[1].replicates.size(), 2U);
+  EXPECT_EQ(observed[1].replicates[1]->replicate, 1);
+  EXPECT_NEAR(observed[1].point[0], (0.016 - 0.014) / 0.007, 1e-12);
+  EXPECT_EQ(observed[2].fidelity, 1U);
+  EXPECT_EQ(observed[2].replicates[0]->summary.final_strain, 0.3);
+}
+
+TEST(Points, LieOnAGrid) {
+  EXPECT_EQ(on_grid({0.5, 0.3, -0.1, 1.2}), (std::vector<double>{0.5, 1229.0 / 4096.0, 0.0, 1.0}));
+}
+
 }  // namespace
 }  // namespace perfora::optimize

@@ -1,0 +1,169 @@
+// What is here: the searchers "model", "random" and "sobol" on studies whose evaluations are formulas. What is not: the
+// model itself (tests/optimize/model/), NLopt (test_nlopt_search.cpp).
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "optimize/search/searcher.h"
+#include "optimize/search/study_model.h"
+#include "tests/optimize/search/study_support.h"
+
+namespace perfora::optimize {
+namespace {
+
+using Values = std::vector<std::vector<double>>;
+
+SearchStage stage_of(const Study& study) {
+  SearchStage stage;
+  stage.algorithm = study.keys.algorithm;
+  for (std::size_t k = 0; k < study.arms.size(); ++k)
+    stage.tasks.push_back({static_cast<int>(k), study.arms[k].maxeval, study.arms[k].seed, study.arms[k].start});
+  return stage;
+}
+
+Values values_of(const Trace& trace) {
+  Values values;
+  for (const Visit& visit : trace.visits) values.push_back(visit.candidate->values);
+  return values;
+}
+
+class ModelSearcherTest : public testing::Test {
+ protected:
+  StudyFolder folder;
+
+  Study study(const std::string& algorithm, int maxeval, const std::string& arms = "",
+              const std::string& constraints = "") const {
+    return read_study(folder.file(
+        "study.toml",
+        study_text("final_replicates = 0\nmaxeval = " + std::to_string(maxeval) + "\nalgorithm = \"" + algorithm + "\"",
+                   arms, constraints)));
+  }
+
+  /// Asks and answers until the stage has ended; what was asked for the first time goes to `asked`, call by call.
+  static std::vector<Trace> carried_out(const Study& study, CandidateBook& book, Answers& answers, SearchStage stage) {
+    std::vector<Trace> traces;
+    for (bool finished = false; !finished;) {
+      const CandidateStore store(study, book, answers);
+      traces = study.searcher->ask(stage, store);
+      finished = true;
+      // As a driver does: what was asked is given back.
+      for (std::size_t k = 0; k < traces.size(); ++k) {
+        finished = finished && traces[k].finished;
+        stage.tasks[k].batches.clear();
+        std::size_t next = 0;
+        for (const int size : traces[k].batches) {
+          Points& points = stage.tasks[k].batches.emplace_back();
+          for (int j = 0; j < size; ++j)
+            points.push_back(on_grid(study.point_of(traces[k].visits[next++].candidate->values)));
+        }
+      }
+      for (const Trace& trace : traces)
+        for (const Visit& visit : trace.visits)
+          if (!visit.answered) answers.add(book.key(*visit.candidate, 0), fake_evaluation(visit.candidate->request(0)));
+    }
+    return traces;
+  }
+
+  static double best_of(const std::vector<Trace>& traces) {
+    double best = largest_score;
+    for (const Trace& trace : traces)
+      for (const Visit& visit : trace.visits) best = std::min(best, visit.score);
+    return best;
+  }
+};
+
+TEST_F(ModelSearcherTest, SamplesAreDifferentKeepTheWallsAndLieOnTheGrid) {
+  for (const std::string algorithm : {"random", "sobol"}) {
+    const Study one = study(algorithm, 20, "rows = [2, 3]", "thinnest_wall = \"7 mm\"");
+    CandidateBook book(one);
+    Answers none;
+    const CandidateStore store(one, book, none);
+    const std::vector<Trace> traces = one.searcher->ask(stage_of(one), store),
+                             again = one.searcher->ask(stage_of(one), store);
+    ASSERT_EQ(traces.size(), 2U) << algorithm;
+    const Values values = values_of(traces[0]);
+    EXPECT_EQ(values.size(), 10U) << algorithm;
+    EXPECT_EQ(values, values_of(again[0])) << algorithm;
+    EXPECT_EQ(std::set<std::vector<double>>(values.begin(), values.end()).size(), values.size());
+    for (const Visit& visit : traces[0].visits) {
+      EXPECT_GE(visit.candidate->layout.thinnest_wall, 0.007);
+      const double x = 4096.0 * one.point_of(visit.candidate->values)[0];
+      EXPECT_NEAR(x, std::round(x), 1e-6);
+    }
+    EXPECT_FALSE(traces[0].finished);
+  }
+}
+
+TEST_F(ModelSearcherTest, SamplesEndWhereNoPointKeepsTheWalls) {
+  const Study one = study("sobol", 5, "", "thinnest_wall = \"12 mm\"");
+  CandidateBook book(one);
+  Answers none;
+  const Trace trace = one.searcher->ask(stage_of(one), CandidateStore(one, book, none)).at(0);
+  EXPECT_TRUE(trace.visits.empty());
+  EXPECT_TRUE(trace.finished);
+  EXPECT_EQ(trace.reason, "few points keep the constraints");
+}
+
+// Optimum of fake_evaluation(): diameter 17.5 mm, jitter 0.4 mm, in the arm of two rows; four holes there, six in the
+// other arm, which costs 0.6 in the plateau.
+TEST_F(ModelSearcherTest, ModelFindsTheOptimum) {
+  const Study learning = study("model", 32, "rows = [2, 3]"), sampling = study("sobol", 32, "rows = [2, 3]");
+  CandidateBook book(learning), other(sampling);
+  Answers known, unrelated;
+  const std::vector<Trace> traces = carried_out(learning, book, known, stage_of(learning));
+  const std::vector<Trace> sampled = carried_out(sampling, other, unrelated, stage_of(sampling));
+  EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 32U);
+  EXPECT_EQ(traces[0].reason, "maxeval reached");
+  EXPECT_LT(best_of(traces), 0.005) << "within 7 % of the wished stress";
+  EXPECT_LT(best_of(traces), 0.5 * best_of(sampled));
+  EXPECT_GT(traces[0].visits.size(), traces[1].visits.size()) << "the arm that holds the optimum gets more";
+  EXPECT_NE(traces[0].note.find("leave-one-design-out"), std::string::npos);
+  const CandidateStore store(learning, book, known);
+  std::vector<const Candidate*> visited;
+  for (const Trace& trace : traces)
+    for (const Visit& visit : trace.visits) visited.push_back(visit.candidate);
+  StudyModel model(store, visited, 1);
+  const Candidate& recommended = *model.ranked().front().candidate;
+  EXPECT_EQ(recommended.arm, 0);
+  EXPECT_NEAR(recommended.values[0], best_diameter, 0.0006);
+}
+
+// Batches of four over both arms; those that are given are taken, and computed anew they are the same.
+TEST_F(ModelSearcherTest, BatchesAreGivenBackOrComputedAnew) {
+  const Study one = study("model", 14, "rows = [2, 3]");
+  CandidateBook book(one);
+  Answers known;
+  const std::vector<Trace> traces = carried_out(one, book, known, stage_of(one));
+  const CandidateStore store(one, book, known);
+  const std::vector<Trace> anew = one.searcher->ask(stage_of(one), store);
+  ASSERT_EQ(traces[0].batches.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(traces[0].batches[k] + traces[1].batches[k], k < 3 ? 4 : 2) << k;
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(values_of(anew[k]), values_of(traces[k]));
+    EXPECT_EQ(anew[k].batches, traces[k].batches);
+    EXPECT_TRUE(anew[k].finished);
+  }
+}
+
+// A map that is told is learnt from: no Sobol points are asked for, and the first batch lies near the optimum.
+TEST_F(ModelSearcherTest, GoesOnFromAMap) {
+  const Study one = study("model", 4), map = study("sobol", 24);
+  CandidateBook book(one);
+  Answers known;
+  CandidateStore store(one, book, known);
+  const CandidateStore of_map(map, book, known);
+  for (const Visit& visit : map.searcher->ask(stage_of(map), of_map).at(0).visits) {
+    known.add(book.key(*visit.candidate, 0), fake_evaluation(visit.candidate->request(0)));
+    store.observe(*visit.candidate);
+  }
+  const Trace trace = one.searcher->ask(stage_of(one), store).at(0);
+  ASSERT_EQ(trace.visits.size(), 4U);
+  EXPECT_NE(trace.note.find("leave-one-design-out"), std::string::npos) << trace.note;
+  double nearest = 1.0;
+  for (const Visit& visit : trace.visits)
+    nearest = std::min(nearest, fake_distance(visit.candidate->values[0], visit.candidate->values[1]));
+  EXPECT_LT(std::sqrt(nearest), 0.1);
+}
+
+}  // namespace
+}  // namespace perfora::optimize
