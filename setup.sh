@@ -3,8 +3,8 @@
 # What is not: building and running (see ./run).
 #
 #   ./setup.sh             compiler and libraries
-#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, doxygen (about 300 MB; used by
-#                          .ci/run)
+#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, Chromium for
+#                          reports, doxygen (about 600 MB; used by .ci/run)
 #   ./setup.sh --list      prints the package names, installs nothing
 set -euo pipefail
 
@@ -13,9 +13,10 @@ packages=(
   libcgal-dev libeigen3-dev libnlopt-cxx-dev    # geometry, linear algebra, search
   libhdf5-dev zlib1g-dev libtomlplusplus-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
+  libjs-chart.js node-pako                      # charts and decompression in reports, put into the program
   libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks
 )
-viewer_packages=(python3-paraview python3-h5py doxygen)
+viewer_packages=(python3-paraview python3-h5py doxygen chromium chromium-driver python3-selenium)
 
 with_viewers=no
 list_only=no
