@@ -5,6 +5,7 @@
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/reports.h"
 #include "app/workers.h"
 #include "io/error.h"
 #include "io/text.h"
@@ -53,6 +54,7 @@ int calibrate(const CalibrateFlags& flags) {
     if (std::filesystem::exists(options.folder / "confirmation.h5"))
       report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
   }
+  write_report_beside(options.folder);
   print_record(record, flags.common.json);
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
   if (result.status != results::RunStatus::stopped) io::log_info("written: " + options.folder.string());

@@ -18,6 +18,7 @@ void add_calibrate(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_show(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
+void add_report(CLI::App& program, int& exit_code);
 /// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
 void add_worker(CLI::App& program, int& exit_code);
 /// Hidden: the keys of design, study, sweep and calibration files as Markdown (docs/user/design-files.md).

@@ -177,11 +177,15 @@ void print_text(const std::string& text) {
                                 "; what was made is in its files, `perfora show` prints it again");
 }
 
+std::string record_text(const nlohmann::json& object, const std::string& source) {
+  return results::summary_text(object, dimension_of_key, source);
+}
+
 void print_record(const nlohmann::json& object, bool as_json, const std::string& source) {
   if (as_json)
     print_json(object);
   else
-    print_text(results::summary_text(object, dimension_of_key, source));
+    print_text(record_text(object, source));
 }
 
 const std::string& command_line() {

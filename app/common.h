@@ -68,6 +68,8 @@ void print_json(const nlohmann::json& object);
 /// Text on standard output (the readable summary when --json is not given).
 void print_text(const std::string& text);
 
+/// The readable summary of a result. Throws as print_record does.
+std::string record_text(const nlohmann::json& object, const std::string& source = "");
 /// A result: its JSON, or its readable summary. Throws io::InputError, which names `source`, for a damaged object.
 void print_record(const nlohmann::json& object, bool as_json, const std::string& source = "");
 

@@ -10,6 +10,7 @@
 #include "app/common.h"
 #include "app/dakota.h"
 #include "app/outputs.h"
+#include "app/reports.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "optimize/campaign/ensemble.h"
@@ -73,7 +74,10 @@ int evaluate_one(const EvaluateFlags& flags) {
   log_warnings(prepared.warnings);
   const optimize::Evaluation evaluation = optimize::evaluate_design(design, options, 0);
   progress.finish(fmt::format("{}, {}", evaluation.reason, io::duration(evaluation.performance.seconds)));
-  if (std::filesystem::exists(options.run_file)) write_beside(options.run_file);
+  if (std::filesystem::exists(options.run_file)) {
+    write_beside(options.run_file);
+    write_report_beside(options.run_file);
+  }
   log_warnings(optimize::validity_warnings(evaluation, design.design().solver.loading));
   const auto record = optimize::evaluation_record(design, evaluation);
   print_record(record, flags.common.json);
@@ -151,6 +155,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   };
   const optimize::Ensemble ensemble = optimize::evaluate_ensemble(design, options);
   const auto record = optimize::to_json(ensemble);
+  if (!ensemble.replicates.empty()) write_report_beside(options.folder);
   print_record(record, flags.common.json);
   say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "the same command and --resume");
   return exit_code_of(ensemble.status);

@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);
   app::add_plot(program, exit_code);
+  app::add_report(program, exit_code);
   app::add_worker(program, exit_code);
   app::add_reference(program, exit_code);
   try {

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/outputs.h"
+#include "app/reports.h"
 #include "app/workers.h"
 #include "io/text.h"
 #include "optimize/search/study_result.h"
@@ -35,6 +36,7 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.force = flags.common.force;
   options.command_line = command_line();
   options.cancellation = stop_token();
+  options.results_written = report_renewal(options.folder);
   options.make_executor = worker_executor(flags.workers, study.keys.execution,
                                           optimize::useful_workers(study, flags.workers.workers), flags.common);
   return options;
@@ -88,6 +90,7 @@ int optimize_study(const OptimizeFlags& flags) {
     if (best == results::RunStatus::stopped) status = best;
   }
   if (run.plan().best) draw(run);
+  write_report_beside(options.folder);
   print_record(optimize::to_json(run), flags.common.json);
   if (status != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{})", options.folder.string(),

@@ -6,6 +6,7 @@
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/reports.h"
 #include "app/workers.h"
 #include "optimize/campaign/sweep_result.h"
 
@@ -31,6 +32,7 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.command_line = command_line();
   options.keep_run_files = sweep.keys.run_files;
   options.cancellation = stop_token();
+  options.results_written = report_renewal(options.folder);
   options.make_executor =
       worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers), flags.common);
   return options;
@@ -50,6 +52,7 @@ int sweep_designs(const SweepFlags& flags) {
                     run.sweep().left_out, options.folder.string()));
   run.run();
   draw_campaign(options.folder, options.folder / "sweep.png");
+  write_report_beside(options.folder);
   const bool collapse = draw_collapse(options.folder, options.folder / "collapse.png");
   if (run.sweep().keys.run_files && !collapse)
     io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");

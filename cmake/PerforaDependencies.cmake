@@ -26,3 +26,16 @@ foreach(pair IN ITEMS "toml++/toml.h;libtomlplusplus-dev" "Random123/philox.h;li
     message(FATAL_ERROR "${header} is missing: install the Debian package ${package} (./setup.sh installs all of them)")
   endif()
 endforeach()
+
+# Libraries of the report's page, put into the program as they are.
+foreach(triple IN ITEMS "PERFORA_CHART_JS;/usr/share/javascript/chart.js/chart.min.js;libjs-chart.js"
+                        "PERFORA_INFLATE_JS;/usr/share/nodejs/pako/dist/pako_inflate.es5.min.js;node-pako")
+  list(GET triple 0 variable)
+  list(GET triple 1 path)
+  list(GET triple 2 package)
+  set(${variable} ${path} CACHE FILEPATH "JavaScript file of the package ${package}")
+  mark_as_advanced(${variable})
+  if(NOT EXISTS ${${variable}})
+    message(FATAL_ERROR "${${variable}} is missing: install the Debian package ${package} (./setup.sh installs all of them)")
+  endif()
+endforeach()

@@ -109,7 +109,10 @@ void read_window(const json& object, const char* key, StudyRecord& record) {
 }
 
 StudyRecord from_results(const fs::path& folder) {
-  const json result = json::parse(io::read_file(folder / "result.json"), nullptr, false);
+  // Killed before its first results: what its table tells is shown.
+  const bool any = fs::exists(folder / "result.json") || !fs::exists(folder / "evaluations.csv");
+  const json result = any ? json::parse(io::read_file(folder / "result.json"), nullptr, false)
+                          : json{{"schema", "perfora.optimize/1"}, {"reason", "not finished"}};
   if (!result.is_object() || result.value("schema", "") != "perfora.optimize/1")
     throw io::InputError({(folder / "result.json").string(), 0, ""}, "this is not the result of a study", "",
                          "give the folder of a `perfora optimize`");

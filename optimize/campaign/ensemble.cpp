@@ -71,7 +71,7 @@ class EnsembleRun final : public Campaign {
 
   std::string kind() const override { return "ensemble"; }
   std::vector<std::string> own_files() const override {
-    return {"journal.jsonl", "ensemble.json", "ensemble.csv", "replicate-*"};
+    return {"journal.jsonl", "ensemble.json", "ensemble.csv", "report.html", "replicate-*"};
   }
   /// Names the design whatever the number of replicates.
   json identity() const override { return {{"key", make_request(design_, 0).full_key()}}; }

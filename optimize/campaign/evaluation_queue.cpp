@@ -254,6 +254,7 @@ bool EvaluationQueue::run(Campaign& campaign) {
     in_flight_.erase(asked.key);
     if (wanted.empty() || Clock::now() - written < options_.results_interval) continue;
     campaign.write_results();
+    if (options_.results_written) options_.results_written();
     written = Clock::now();
   }
   if (executor) executor->stop();

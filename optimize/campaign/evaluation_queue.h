@@ -65,6 +65,8 @@ struct WorkOptions {
   std::function<void(const WorkProgress&)> progress;
   /// Results of unfinished work are written this often, so that a kill leaves something to look at.
   std::chrono::seconds results_interval = std::chrono::seconds(60);
+  /// Called when they were. May be empty.
+  std::function<void()> results_written;
 };
 
 class Campaign;

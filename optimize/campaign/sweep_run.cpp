@@ -25,8 +25,8 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
 }
 
 std::vector<std::string> SweepRun::own_files() const {
-  return {"journal.jsonl", "result.json",  "cases.csv", "runs.csv", "curves.csv",
-          "sweep.png",     "collapse.png", "runs",      "histories"};
+  return {"journal.jsonl", "result.json",  "cases.csv",   "runs.csv", "curves.csv",
+          "sweep.png",     "collapse.png", "report.html", "runs",     "histories"};
 }
 
 json SweepRun::identity() const {

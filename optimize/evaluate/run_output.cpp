@@ -18,9 +18,10 @@ io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resum
   io::check_output(run_file, true, false);  // that there is a folder for the lock
   io::OutputLock lock(run_file);
   io::check_output(run_file, force, resume);
-  const std::array<fs::path, 3> beside = {fs::path(run_file).replace_extension(".csv"),
+  const std::array<fs::path, 4> beside = {fs::path(run_file).replace_extension(".csv"),
                                           fs::path(run_file).replace_extension(".xdmf"),
-                                          fs::path(run_file).replace_extension(".xdmf.h5")};
+                                          fs::path(run_file).replace_extension(".xdmf.h5"),
+                                          fs::path(run_file).replace_extension(".html")};
   if (!resume)
     for (const fs::path& path : beside) io::check_output(path, force, false);
   const fs::path part = fs::path(run_file).replace_extension(".part");

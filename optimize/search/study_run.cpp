@@ -42,8 +42,9 @@ StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)),
 }
 
 std::vector<std::string> StudyRun::own_files() const {
-  return {"journal.jsonl", "result.json", "best.toml",       "best.h5",    "best.csv",  "best.xdmf", "best.xdmf.h5",
-          "best.part",     "best.png",    "evaluations.csv", "study.json", "study.png", "runs",      "histories"};
+  return {"journal.jsonl", "result.json",  "best.toml",   "best.h5",  "best.csv",
+          "best.xdmf",     "best.xdmf.h5", "best.part",   "best.png", "evaluations.csv",
+          "study.json",    "study.png",    "report.html", "runs",     "histories"};
 }
 
 json StudyRun::identity() const {
