@@ -18,6 +18,9 @@ void add_calibrate(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_show(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
+void add_movie(CLI::App& program, int& exit_code);
+/// Completion for shells and the manual page, on standard output.
+void add_completion(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);
 /// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
 void add_worker(CLI::App& program, int& exit_code);

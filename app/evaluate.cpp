@@ -11,6 +11,7 @@
 #include "app/dakota.h"
 #include "app/outputs.h"
 #include "app/reports.h"
+#include "app/terminal.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "optimize/campaign/ensemble.h"
@@ -80,7 +81,10 @@ int evaluate_one(const EvaluateFlags& flags) {
   }
   log_warnings(optimize::validity_warnings(evaluation, design.design().solver.loading));
   const auto record = optimize::evaluation_record(design, evaluation);
-  print_record(record, flags.common.json);
+  if (!flags.common.json && on_terminal())
+    print_text(screen_text(record, evaluation.curve, options.run_file.string()));
+  else
+    print_record(record, flags.common.json);
   say_how_it_ended(evaluation.status, evaluation.reason, options.run_file.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);
 }

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/completion.h"
 #include "app/thread_policy.h"
 #include "app/usage_error.h"
 #include "io/error.h"
@@ -40,8 +41,11 @@ int run(int argc, char** argv) {
   app::add_show(program, exit_code);
   app::add_plot(program, exit_code);
   app::add_report(program, exit_code);
+  app::add_movie(program, exit_code);
+  app::add_completion(program, exit_code);
   app::add_worker(program, exit_code);
   app::add_reference(program, exit_code);
+  app::add_examples(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,7 +12,9 @@
 #include "app/measured_curves.h"
 #include "io/error.h"
 #include "io/hdf5.h"
+#include "io/toml.h"
 #include "optimize/evaluate/design.h"
+#include "results/describe.h"
 
 namespace perfora::app {
 
@@ -95,6 +97,32 @@ void refuse_curves(const PlotFlags& flags, const std::string& what) {
                          "leave it out, or give runs, an ensemble, a sweep or a study");
 }
 
+/// Free text that a TOML file has at its top as `title`; otherwise the name of the file.
+std::string title_of(const fs::path& file) {
+  for (const io::Entry& entry : io::read_toml(file))
+    if (const std::string* text = std::get_if<std::string>(&entry.value.data);
+        text && entry.key == "title" && !text->empty())
+      return *text;
+  return file.stem().string();
+}
+
+/// A design that was not run: its layout.
+void draw_design(const fs::path& input, const fs::path& output, const PlotFlags& flags) {
+  if (const std::string kind = results::kind_of_toml(input); kind != "design")
+    throw io::InputError(
+        {input.string(), 0, ""}, "this is a " + kind + ", and plot draws the layout of a design", "",
+        fmt::format("give the design it names, or its folder after perfora {}", kind == "study"   ? "optimize"
+                                                                                : kind == "sweep" ? "sweep"
+                                                                                                  : "calibrate"));
+  const optimize::DesignFile design(input);
+  static_cast<void>(design.validate(optimize::Purpose::block));
+  const optimize::Design& d = design.design();
+  report::PlotOptions options;
+  options.title = flags.title.empty() ? title_of(input) : flags.title;
+  report::plot_layout(geometry::make_layout(d.layout, d.seeds.effective(0).layout, &design.schema()),
+                      d.packing.mean_diameter, output, options);
+}
+
 void draw(const PlotFlags& flags, const fs::path& output) {
   const fs::path input = flags.inputs.front();
   if (flags.collapse) refuse_curves(flags, "--collapse");
@@ -112,6 +140,10 @@ void draw(const PlotFlags& flags, const fs::path& output) {
     if (!flags.collapse) options.measured = measured_curves(flags.curves, configurations);
     flags.collapse ? report::plot_collapse(runs, output, options) : report::plot_comparison(runs, output, options);
     return;
+  }
+  if (input.extension() == ".toml") {
+    refuse_curves(flags, input.string());
+    return draw_design(input, output, flags);
   }
   const std::string format = format_of(input);
   const bool pack = format.starts_with("perfora.pack/"), test = format.starts_with("perfora.test/"),
@@ -150,10 +182,11 @@ int plot(const PlotFlags& flags) {
 void add_plot(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PlotFlags>();
   CLI::App* command = program.add_subcommand(
-      "plot", "Draw a run or several, a packing, material tests, an elastic response, or a folder of work");
+      "plot", "Draw a design, a run or several, a packing, material tests, an elastic response, or a folder of work");
   command
       ->add_option("FILE", flags->inputs,
-                   "Run file R.h5 or several of them, packing file P.h5, material tests T.h5, file of evaluate "
+                   "Design file (its layout, before any run), run file R.h5 or several of them, packing file P.h5, "
+                   "material tests T.h5, file of evaluate "
                    "--elastic, or the "
                    "folder of a study, sweep, ensemble or calibration, finished or not")
       ->required();

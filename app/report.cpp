@@ -53,7 +53,6 @@ void add_report(CLI::App& program, int& exit_code) {
       ->type_name("CSV")
       ->allow_extra_args(false);
   add_common_flags(*command, flags->common, Uses::files_only);
-  command->footer("Example:\n  perfora report out/quick.h5 -o quick.html");
   command->callback([flags, &exit_code] { exit_code = report_on(*flags); });
 }
 

@@ -11,6 +11,13 @@ install(TARGETS ${libraries} EXPORT PerforaTargets ARCHIVE DESTINATION ${CMAKE_I
 install(EXPORT PerforaTargets NAMESPACE Perfora:: DESTINATION ${package_folder})
 if(TARGET perfora)
   install(TARGETS perfora RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # Completion and manual page are what the program says of itself.
+  install(CODE "foreach(form IN ITEMS bash zsh man)
+    execute_process(COMMAND \"$<TARGET_FILE:perfora>\" completion \${form} OUTPUT_FILE \"${PROJECT_BINARY_DIR}/perfora.\${form}\" COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()")
+  install(FILES ${PROJECT_BINARY_DIR}/perfora.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME perfora)
+  install(FILES ${PROJECT_BINARY_DIR}/perfora.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _perfora)
+  install(FILES ${PROJECT_BINARY_DIR}/perfora.man DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME perfora.1)
 endif()
 
 install(FILES ${PERFORA_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perfora)

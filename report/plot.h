@@ -63,6 +63,11 @@ void plot_collapse(const std::vector<LabelledRun>& rows, const std::filesystem::
 void plot_comparison(const std::vector<LabelledRun>& rows, const std::filesystem::path& out,
                      const PlotOptions& options);
 
+/// A design before any run -> picture: its holes, its thinnest wall, the direction of loading. options.title is its
+/// heading; `mean_diameter` (m) tells how many discs the wall holds.
+void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter, const std::filesystem::path& out,
+                 const PlotOptions& options);
+
 /// P.h5 -> picture: the clipped block, discs by size, rims of the perforations, the size distribution and the measured
 /// quality.
 void plot_packing(const std::filesystem::path& packing_file, const std::filesystem::path& out,

@@ -135,10 +135,11 @@ class BadInput : public ::testing::TestWithParam<Case> {
       arguments += in_quotes(word) + " ";
     }
     if (!named) arguments += in_quotes(file_of(item));
-    const std::set<std::string> writers = {"pack", "evaluate", "optimize", "plot", "test", "calibrate"};
+    const std::set<std::string> writers = {"pack", "evaluate", "optimize", "plot", "report", "test", "calibrate"};
     const std::string command = item.command.substr(0, item.command.find(' '));
     const std::string ending = command == "optimize" || command == "calibrate" ? ""
                                : command == "plot"                             ? ".png"
+                               : command == "report"                           ? ".html"
                                                                                : ".h5";
     if (writers.count(command) > 0) arguments += " -o " + in_quotes(folder_ / ("run/output" + ending));
     return arguments;

@@ -1,0 +1,115 @@
+// What is here: the picture of a design before any run: its holes, its thinnest wall, the direction of loading. What is
+// not: workshop drawings with every dimension (export/), packings (plot_packing.cpp).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/wall.h"
+#include "io/text.h"
+#include "report/block_picture.h"
+#include "report/canvas.h"
+#include "report/plot.h"
+
+namespace perfora::report {
+namespace {
+
+constexpr double page_width = 1600.0, page_margin = 44.0, tallest = 900.0, top = 110.0;
+constexpr double side_panel = 1090.0, line_height = 37.0, arrow_room = 64.0;
+
+using Fact = std::pair<std::string, std::string>;
+
+std::vector<Fact> facts_of(const geometry::PerforationLayout& layout, const geometry::ThinnestWall& wall,
+                           double mean_diameter) {
+  std::vector<Fact> facts = {{"block", io::quantities({layout.width, layout.height}, io::Dimension::length, " x ")},
+                             {"perforations", io::count(layout.perforations.size())},
+                             {"porosity", io::quantity(1.0 - layout.solid_area_fraction(), io::Dimension::ratio)}};
+  if (wall.first >= 0) {
+    facts.emplace_back("thinnest wall", io::quantity(wall.thickness, io::Dimension::length));
+    facts.emplace_back("between perforations", wall.first == wall.second
+                                                   ? fmt::format("{} and its image", wall.first + 1)
+                                                   : fmt::format("{} and {}", wall.first + 1, wall.second + 1));
+    facts.emplace_back("discs across it", io::number(wall.thickness / mean_diameter));
+  }
+  return facts;
+}
+
+void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, double left, double right, double y) {
+  for (const auto& [name, value] : facts) {
+    canvas.text(left, y, name, {.size = 18.0, .colour = palette::soft_ink});
+    canvas.text(right, y, value, {.size = 18.0, .bold = true, .align = Align::right});
+    canvas.line(left, y + 11.0, right, y + 11.0, palette::grid);
+    y += line_height;
+  }
+}
+
+/// The shortest line through the wall, with both ends marked; with its periodic images it may stand at the other edge.
+void draw_wall(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout,
+               const geometry::ThinnestWall& wall) {
+  if (wall.first < 0) return;
+  const double scale = box.width / layout.width;
+  cairo_t* context = canvas.context();
+  cairo_save(context);
+  cairo_rectangle(context, box.x, box.y, box.width, box.height);
+  cairo_clip(context);
+  for (int a = -1; a <= 1; ++a)
+    for (int b = -1; b <= 1; ++b) {
+      const double dx = a * layout.width, dy = b * layout.height;
+      const double x0 = box.x + (wall.from.x + dx) * scale, y0 = box.bottom() - (wall.from.y + dy) * scale;
+      const double x1 = box.x + (wall.to.x + dx) * scale, y1 = box.bottom() - (wall.to.y + dy) * scale;
+      canvas.line(x0, y0, x1, y1, palette::vermilion, 5.0);
+      canvas.disc(x0, y0, 5.0, palette::vermilion, palette::paper, 1.0);
+      canvas.disc(x1, y1, 5.0, palette::vermilion, palette::paper, 1.0);
+    }
+  cairo_restore(context);
+}
+
+/// Arrows onto the upper and the lower edge: the block is compressed upright.
+void draw_loading(Canvas& canvas, const Box& box) {
+  for (int k = 1; k <= 3; ++k) {
+    const double x = box.x + box.width * k / 4.0;
+    for (const double down : {1.0, -1.0}) {
+      const double tip = down > 0.0 ? box.y - 6.0 : box.bottom() + 6.0, tail = tip - down * 38.0;
+      canvas.line(x, tail, x, tip, palette::ink, 2.5);
+      canvas.line(x - 7.0, tip - down * 12.0, x, tip, palette::ink, 2.5);
+      canvas.line(x + 7.0, tip - down * 12.0, x, tip, palette::ink, 2.5);
+    }
+  }
+}
+
+}  // namespace
+
+void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter, const std::filesystem::path& out,
+                 const PlotOptions& options) {
+  const geometry::ThinnestWall wall = geometry::thinnest_wall(layout);
+  const std::vector<Fact> facts = facts_of(layout, wall, mean_diameter);
+  // Wide blocks take the width of the page, with the facts below; others leave them the right.
+  constexpr double wide_from = 1.5;
+  const double shape = layout.width / layout.height;
+  const bool wide = shape > wide_from;
+  const double room = (wide ? page_width - page_margin : side_panel - 70.0) - page_margin;
+  const double scale = std::min(room / layout.width, (tallest - 2.0 * arrow_room) / layout.height);
+  const Box box{page_margin + (wide ? 0.5 * (room - scale * layout.width) : 0.0), top + arrow_room,
+                scale * layout.width, scale * layout.height};
+  const double facts_height = line_height * static_cast<double>(facts.size());
+  const double under = box.bottom() + arrow_room + 30.0;
+  const double page_height = wide ? under + facts_height + 50.0 : std::max(under, top + facts_height) + 30.0;
+  Canvas canvas(out, page_width, page_height);
+  const TextStyle title_style{.size = 30.0, .bold = true};
+  canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title_style), title_style);
+  canvas.text(page_margin, 88.0,
+              wall.first < 0 ? "the design before any run; no perforations"
+                             : "the design before any run; orange: its thinnest wall; arrows: loading",
+              {.size = 17.0, .colour = palette::soft_ink});
+  draw_layout(canvas, box, layout);
+  draw_wall(canvas, box, layout, wall);
+  draw_loading(canvas, box);
+  draw_scale_bar(canvas, box.right(), box.bottom() + arrow_room, scale);
+  if (wide)
+    draw_facts(canvas, facts, page_margin, page_width - page_margin, under + 30.0);
+  else
+    draw_facts(canvas, facts, std::max(box.right() + 60.0, side_panel), page_width - page_margin, box.y + 24.0);
+  canvas.write();
+}
+
+}  // namespace perfora::report
