@@ -108,6 +108,44 @@ void draw_snapshot(Canvas& canvas, const results::RunResult& run, const RunPictu
   draw_scale_bar(canvas, box.right(), box.bottom() + 22.0, box.width / picture.extent_x());
 }
 
+/// Area of the page that the snapshots' blocks fill in these rooms.
+double area_of_blocks(const RunPicture& picture, const std::vector<Box>& rooms) {
+  double area = 0.0;
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    const results::FrameInfo& info = picture.snapshots[k].frame.info;
+    const double height = rooms[k].height - caption_height - scale_height;
+    if (height <= 0.0) return 0.0;
+    const double scale = std::min(rooms[k].width / info.h_xx, height / info.h_yy);
+    area += scale * scale * info.h_xx * info.h_yy;
+  }
+  return area;
+}
+
+/// Where two or three snapshots stand: one over the other (wide blocks), side by side (tall ones), or two above the
+/// last; whichever shows them largest.
+std::vector<Box> snapshot_rooms(const RunPicture& picture, const Box& whole, double gap) {
+  const auto count = static_cast<double>(picture.snapshots.size());
+  std::vector<Box> stacked, beside, two_above;
+  const double row = (whole.height - (count - 1.0) * gap) / count, column = (whole.width - (count - 1.0) * gap) / count;
+  for (std::size_t k = 0; k < picture.snapshots.size(); ++k) {
+    const auto place = static_cast<double>(k);
+    stacked.push_back({whole.x, whole.y + place * (row + gap), whole.width, row});
+    beside.push_back({whole.x + place * (column + gap), whole.y, column, whole.height});
+  }
+  if (picture.snapshots.size() == 3) {
+    const results::RunResult& run = *picture.run;
+    const double half = (whole.width - gap) / 2.0;
+    const double upper = std::min(caption_height + half * run.height / run.width + scale_height, 0.6 * whole.height);
+    two_above = {{whole.x, whole.y, half, upper},
+                 {whole.x + half + gap, whole.y, half, upper},
+                 {whole.x, whole.y + upper + gap, whole.width, whole.height - upper - gap}};
+  }
+  std::vector<Box> best = stacked;
+  for (const std::vector<Box>& other : {beside, two_above})
+    if (area_of_blocks(picture, other) > area_of_blocks(picture, best)) best = other;
+  return best;
+}
+
 void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
   const double width = page_width - right_margin - middle;
   constexpr double gap = 26.0;
@@ -121,18 +159,9 @@ void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
   const results::RunResult& run = *picture.run;
   const Box whole{middle, top, width, page_height - top - 50.0};
   if (count == 1) return draw_snapshot(canvas, run, picture.snapshots[0], 'A', whole);
-  const double half = (width - gap) / 2.0;
-  const double upper_height =
-      count == 2 ? 0.48 * whole.height
-                 : std::min(caption_height + half * run.height / run.width + scale_height, 0.6 * whole.height);
-  const Box lower{middle, top + upper_height + gap, width, whole.height - upper_height - gap};
-  if (count == 2) {
-    draw_snapshot(canvas, run, picture.snapshots[0], 'A', {middle, top, width, upper_height});
-    return draw_snapshot(canvas, run, picture.snapshots[1], 'B', lower);
-  }
-  draw_snapshot(canvas, run, picture.snapshots[0], 'A', {middle, top, half, upper_height});
-  draw_snapshot(canvas, run, picture.snapshots[1], 'B', {middle + half + gap, top, half, upper_height});
-  draw_snapshot(canvas, run, picture.snapshots[2], 'C', lower);
+  const std::vector<Box> rooms = snapshot_rooms(picture, whole, gap);
+  for (std::size_t k = 0; k < count; ++k)
+    draw_snapshot(canvas, run, picture.snapshots[k], static_cast<char>('A' + k), rooms[k]);
 }
 
 void draw_key(Canvas& canvas) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "report/canvas.h"
@@ -43,6 +44,15 @@ Colour colour_of(const SweepGroup& group, const SweepPoint& point, bool curve) {
   return curve ? mix(own, palette::paper, 0.55 * (1.0 - faint)) : own;
 }
 
+/// Whether every place is a number (with a unit or not): only then a line from one to the next says something.
+bool places_are_numbers(const SweepGroup& group) {
+  return std::all_of(group.places.begin(), group.places.end(), [](const std::string& text) {
+    char* end = nullptr;
+    std::strtod(text.c_str(), &end);
+    return end != text.c_str() && (*end == '\0' || *end == ' ') && std::count(text.begin(), text.end(), ' ') <= 1;
+  });
+}
+
 Axis measure_axis(const SweepPicture& picture, const SweepGroup& group, std::size_t measure) {
   const MeasureUnit unit = measure_unit(picture.measures[measure]);
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -53,6 +63,14 @@ Axis measure_axis(const SweepPicture& picture, const SweepGroup& group, std::siz
         low = std::min(low, unit.scale * value);
         high = std::max(high, unit.scale * value);
       }
+  // Intervals are shown whole, unless so few replicates make them so wide that nothing else is seen.
+  constexpr double widest = 2.5;
+  double reach = high;
+  for (const auto* points : {&group.points, &picture.base})
+    for (const SweepPoint& point : *points)
+      if (const SweepValue& value = point.values[measure]; std::isfinite(value.mean) && value.half_interval > 0.0)
+        reach = std::max(reach, unit.scale * (value.mean + value.half_interval));
+  if (high > 0.0) high = std::min(reach, widest * high);
   Axis axis;
   axis.label = unit.label;
   if (!(high >= low)) return axis;
@@ -76,8 +94,12 @@ void draw_point(Canvas& canvas, const Chart& chart, double place, const SweepVal
   };
   for (const double one : value.replicates)
     if (std::isfinite(one)) canvas.disc(x - 7.0, y(one), 2.6, mix(colour, palette::paper, 0.35), colour, 0.6);
-  if (value.half_interval > 0.0)
-    canvas.line(x, y(value.mean - value.half_interval), x, y(value.mean + value.half_interval), colour, 2.2);
+  if (value.half_interval > 0.0) {
+    const double upper = y(value.mean + value.half_interval);
+    canvas.line(x, y(value.mean - value.half_interval), x, upper, colour, 2.2);
+    if (scale * (value.mean + value.half_interval) > chart.y_axis().high)  // it goes on beyond the axis
+      for (const double aside : {-5.0, 5.0}) canvas.line(x + aside, upper + 8.0, x, upper, colour, 2.2);
+  }
   canvas.disc(x, y(value.mean), 5.6, colour, palette::paper, 1.0);
 }
 
@@ -108,7 +130,7 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
       means.push_back(std::max(mean, chart.y_axis().low));
     }
     const Colour line = group.series.size() > 1 ? palette::series()[s % palette::series().size()] : palette::soft_ink;
-    chart.polyline(places, means, line, 1.4, 0.6);
+    if (places_are_numbers(group)) chart.polyline(places, means, line, 1.4, 0.6);
   }
   for (const SweepPoint& point : group.points) {
     const double aside = shift * (point.series - 0.5 * static_cast<double>(group.series.size() - 1));
