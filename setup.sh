@@ -3,15 +3,15 @@
 # What is not: building and running (see ./run).
 #
 #   ./setup.sh             compiler and libraries
-#   ./setup.sh --viewers   also the programs that some tests need: ParaView for result files, Chromium for reports,
-#                          doxygen, what tests and examples in Python use (about 750 MB; used by .ci/run)
+#   ./setup.sh --viewers   also the programs that some tests need: ParaView, LAMMPS, ase, ezdxf for exports, Chromium for
+#                          reports, doxygen, what tests and examples in Python use (about 800 MB; used by .ci/run)
 #   ./setup.sh --list      prints the package names, installs nothing
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config              # build
   libcgal-dev libeigen3-dev libboost-dev libnlopt-cxx-dev  # geometry, linear algebra, models, search
-  libhdf5-dev zlib1g-dev libtomlplusplus-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
+  libhdf5-dev zlib1g-dev libtomlplusplus-dev libpugixml-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
   libjs-chart.js node-pako                      # charts and decompression in reports, put into the program
   libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks
@@ -19,6 +19,7 @@ packages=(
 )
 viewer_packages=(
   python3-paraview python3-h5py doxygen
+  lammps python3-ase python3-ezdxf python3-pil xvfb xauth  # exports
   chromium chromium-driver python3-selenium  # reports
   mypy python3-scipy python3-matplotlib python3-optuna python3-dask  # tests and examples of the Python module
 )

@@ -22,6 +22,8 @@ void add_movie(CLI::App& program, int& exit_code);
 /// Completion for shells and the manual page, on standard output.
 void add_completion(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);
+void add_export(CLI::App& program, int& exit_code);
+void add_draw(CLI::App& program, int& exit_code);
 /// Hidden: one Request (JSON) a line on standard input, one Evaluation (JSON) a line on standard output.
 void add_worker(CLI::App& program, int& exit_code);
 /// Hidden: the keys of design, study, sweep and calibration files as Markdown (docs/user/design-files.md).

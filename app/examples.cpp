@@ -30,6 +30,13 @@ constexpr std::pair<const char*, const char*> examples[] = {
     {"report",
      "perfora report out/quick.h5 -o quick.html\n"
      "  perfora report out/study-quick -o study.html"},
+    {"export",
+     "perfora export out/quick.h5 --lammps-dump --vtk -o out/quick\n"
+     "  perfora export out/quick.h5 --vtk --axis strain --force\n"
+     "  perfora export out/quick.h5 --csv --at \"10 %\" -o out/at-ten-percent"},
+    {"draw",
+     "perfora draw designs/table1.toml -o block.svg\n"
+     "  perfora draw out/study-quick/best.h5 -o block.dxf"},
     {"movie",
      "perfora evaluate designs/quick.toml --set output.frames=all -o out/quick.h5\n"
      "  perfora movie out/quick.h5 -o out/quick-movie"},

@@ -43,6 +43,8 @@ int run(int argc, char** argv) {
   app::add_report(program, exit_code);
   app::add_movie(program, exit_code);
   app::add_completion(program, exit_code);
+  app::add_export(program, exit_code);
+  app::add_draw(program, exit_code);
   app::add_worker(program, exit_code);
   app::add_reference(program, exit_code);
   app::add_examples(program);

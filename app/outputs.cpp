@@ -2,7 +2,7 @@
 #include "app/outputs.h"
 
 #include "io/files.h"
-#include "report/xdmf.h"
+#include "report/export/xdmf.h"
 #include "results/run_file.h"
 
 namespace perfora::app {

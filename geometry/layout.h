@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "geometry/make_shape.h"
@@ -55,7 +56,9 @@ struct LayoutOptions {
   int count = 36;             ///< random: number of holes
   double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; hard-core placement keeps it
   std::vector<double> holes;  ///< list: rows of x, y, diameter
-  std::filesystem::path file; ///< list: CSV of holes (layout_list.h) instead of `holes`
+  std::filesystem::path file; ///< list: CSV of holes (layout_list.h) or drawing (drawn_holes.h) instead of `holes`
+  std::string file_unit;      ///< of a drawing's lengths; "": as the drawing says
+  std::string file_layer;     ///< of a drawing: the layer or group with the holes; "": see drawn_holes.h
 
   double cell_width() const { return scale * width; }  ///< as laid
   double cell_height() const { return scale * height; }

@@ -146,7 +146,13 @@ void describe(io::Schema& schema, LayoutOptions& options) {
       .real_rows("holes", options.holes, 3, Dimension::length, "Rows of x, y, diameter (list).")
       .path("file", options.file,
             "CSV with columns x, y, diameter in metres, instead of holes; of other shapes also shape, breadth, angle, "
-            "corner_radius, wkt (list).");
+            "corner_radius, wkt. Or a drawing: .dxf, .svg, .wkt (list).")
+      .text("file_unit", options.file_unit,
+            "Unit of a drawing's lengths, such as \"mm\"; empty: as the drawing says, WKT in metres (list).")
+      .text(
+          "file_layer", options.file_layer,
+          "Layer (DXF) or group (SVG) of a drawing that has the holes; empty: the one called holes, else every closed "
+          "outline but the block's (list).");
 }
 
 }  // namespace perfora::geometry

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/drawn_holes.h"
 #include "geometry/layout.h"
 #include "geometry/make_shape.h"
 #include "geometry/outline_file.h"
@@ -175,6 +176,7 @@ std::vector<Perforation> listed_holes(const LayoutOptions& options, const Usual&
       add_usual(holes, options, usual, options.holes[k], options.holes[k + 1], options.holes[k + 2], keys);
     return holes;
   }
+  if (is_drawing(options.file)) return drawn_holes(options, most);
   if (ShapeRows::are_named(io::csv_names(options.file)))
     return ShapeRows(options, usual, io::read_csv_texts(options.file, most)).holes();
   const io::CsvTable table = io::read_csv(options.file, {"x", "y", "diameter"}, most);

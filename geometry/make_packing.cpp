@@ -1,6 +1,6 @@
-// What is here: the keys of [packing], how many discs there are, their start, and the two protocols; import of someone
-// else's packing. What is not: the minimisation (overlap_minimiser.cpp), the search for jamming (jam.cpp), clipping
-// (clip.cpp).
+// What is here: the keys of [packing], how many discs there are, their start, and the two protocols.
+// What is not: import of someone else's packing (import_packing.cpp), the minimisation (overlap_minimiser.cpp), the
+// search for jamming (jam.cpp), clipping (clip.cpp).
 #include "geometry/make_packing.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "geometry/clip.h"
@@ -19,7 +18,6 @@
 #include "geometry/packing.h"
 #include "geometry/random.h"
 #include "geometry/size_law.h"
-#include "io/csv.h"
 #include "io/error.h"
 #include "io/files.h"
 #include "io/text.h"
@@ -28,11 +26,7 @@ namespace perfora::geometry {
 
 namespace {
 
-/// Memory is about 0.3 kB a disc; the whole way of a run takes far more.
-constexpr std::int64_t maximum_discs = 5'000'000;
 constexpr std::int64_t minimum_discs = 16;
-/// The cell must hold this many of the largest discs (as large as they are at jamming) along each side.
-constexpr double largest_discs_along_a_side = 3.0;
 /// The packing that estimates the jamming fraction: its standard deviation over seeds is about 0.001 at this size, and
 /// the fraction does not depend on the seed of the packing requested, so that all replicates have equally many discs.
 constexpr std::int64_t pilot_discs = 4000;
@@ -244,7 +238,14 @@ void describe(io::Schema& schema, PackingOptions& options) {
               "minimisation there.")
       .choice("clip", options.clip, {{"centre", ClipRule::centre}, {"whole", ClipRule::whole}},
               "A disc goes when its centre lies in a perforation, or when any of it does.")
-      .path("file", options.file, "CSV (x, y, radius in metres) to import instead of making a packing.");
+      .path("file", options.file,
+            "Discs to import instead of making a packing: CSV (x, y, radius or diameter; metres, or units in the "
+            "header), LAMMPS text dump (its last frame) or data file.")
+      .choice("file_plane", options.file_plane,
+              {{"xy", ImportPlane::xy}, {"xz", ImportPlane::xz}, {"yz", ImportPlane::yz}},
+              "Plane of the file that is the block's: its first axis is the width, its second the height.")
+      .text("file_unit", options.file_unit,
+            "Unit of the file's lengths, such as \"mm\"; empty: as the file says, CSV without units in metres.");
 }
 
 PackingKey packing_key(const PackingOptions& options, double width, double height, std::uint64_t seed) {
@@ -256,6 +257,8 @@ PackingKey packing_key(const PackingOptions& options, double width, double heigh
     std::snprintf(text, sizeof text, "crc32:%08x", io::crc32(io::read_file(options.file)));
     key.protocol = "imported";
     key.source = text;
+    if (options.file_plane != ImportPlane::xy) key.source += options.file_plane == ImportPlane::xz ? " xz" : " yz";
+    if (!options.file_unit.empty()) key.source += " " + options.file_unit;
     return key;
   }
   key.mean_diameter = options.mean_diameter;
@@ -279,7 +282,7 @@ std::int64_t expected_discs(const PackingOptions& options, double width, double 
 
 Packing make_packing(const PackingOptions& options, double width, double height, std::uint64_t seed, int threads,
                      const Progress& progress, const io::Cancellation& cancellation) {
-  if (!options.file.empty()) return import_packing(options.file, width, height);
+  if (!options.file.empty()) return import_packing(options, width, height);
   const std::int64_t count = expected_discs(options, width, height);
   const SizeLaw law = law_of(options);
   const double unit = options.mean_diameter;
@@ -297,73 +300,6 @@ Packing make_packing(const PackingOptions& options, double width, double height,
           : jam_and_dilate(std::move(start), wanted, fraction, unit, width, height, threads, progress, cancellation);
   packing.key = packing_key(options, width, height, seed);
   if (progress) progress(1.0, packing.quality.reached ? "packed" : packing.quality.reason);
-  return packing;
-}
-
-namespace {
-
-/// Refuses a disc that lies within another one. Discs by rising x, each against those that begin within the largest
-/// diameter: called only where there is such a pair.
-void refuse_disc_within_another(const Packing& packing, const io::CsvTable& table, const std::filesystem::path& csv) {
-  std::vector<std::size_t> order(packing.x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return packing.x[a] < packing.x[b]; });
-  const double reach = 2.0 * *std::max_element(packing.radius.begin(), packing.radius.end());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    for (std::size_t next = 1; next < order.size(); ++next) {
-      const std::size_t i = order[k], j = order[(k + next) % order.size()];
-      double dx = packing.x[j] - packing.x[i], dy = packing.y[j] - packing.y[i];
-      if (dx < 0.0) dx += packing.width;
-      if (dx > reach) break;
-      dx -= packing.width * std::round(dx / packing.width);
-      dy -= packing.height * std::round(dy / packing.height);
-      if (std::hypot(dx, dy) > std::abs(packing.radius[i] - packing.radius[j])) continue;
-      throw io::InputError({csv.string(), table.lines[std::max(i, j)], "packing.file"},
-                           fmt::format("this disc and the one of line {} lie within each other, as they are or across "
-                                       "the boundary",
-                                       table.lines[std::min(i, j)]),
-                           "discs of a packing touch at most", "give each disc once, and one frame of a trajectory");
-    }
-}
-
-}  // namespace
-
-Packing import_packing(const std::filesystem::path& csv, double width, double height) {
-  const io::CsvTable table = io::read_csv(csv, {"x", "y", "radius"}, static_cast<std::size_t>(maximum_discs));
-  Packing packing;
-  packing.width = width;
-  packing.height = height;
-  const double side = std::min(width, height);
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    const double radius = table.columns[2][k];
-    if (!(radius > 0.0 && 2.0 * radius * largest_discs_along_a_side <= side))
-      throw io::InputError(
-          {csv.string(), table.lines[k], "packing.file"}, "a disc of this radius does not belong in the cell",
-          fmt::format("radii above 0, and a cell of at least {:g} of the largest discs along each side",
-                      largest_discs_along_a_side),
-          "give x, y and radius in metres");
-    const auto wrap = [](double value, double period) {
-      value -= period * std::floor(value / period);
-      return value >= 0.0 && value < period ? value : 0.0;
-    };
-    packing.x.push_back(wrap(table.columns[0][k], width));
-    packing.y.push_back(wrap(table.columns[1][k], height));
-    packing.radius.push_back(radius);
-  }
-  if (table.rows() < 2)
-    throw io::InputError({csv.string(), 0, "packing.file"}, "there are fewer than two discs", "two or more",
-                         "give one disc a line");
-  PackingOptions options;
-  options.file = csv;
-  packing.key = packing_key(options, width, height, 0);
-  packing.quality = measure_packing(packing);
-  if (packing.quality.solid_fraction >= 1.0)
-    throw io::InputError(
-        {csv.string(), 0, "packing.file"},
-        fmt::format("the discs have {:.4g} times the area of the cell of {}", packing.quality.solid_fraction,
-                    io::quantities({width, height}, io::Dimension::length, " x ")),
-        "less than the cell", "give one frame of a trajectory, or the cell that the packing was made in");
-  if (packing.quality.max_overlap_ratio >= 1.0) refuse_disc_within_another(packing, table, csv);
   return packing;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "geometry/clip.h"
 #include "geometry/packing.h"
@@ -14,6 +15,8 @@
 namespace perfora::geometry {
 
 enum class PackingProtocol { dilate, quench };
+/// Which axes of an imported file are those of the block.
+enum class ImportPlane { xy, xz, yz };
 
 /// Options of the design file's [packing] section. Lengths in m.
 struct PackingOptions {
@@ -23,10 +26,17 @@ struct PackingOptions {
   double solid_fraction = 0.0;  ///< 0: what compaction reaches
   PackingProtocol protocol = PackingProtocol::dilate;
   ClipRule clip = ClipRule::centre;
-  std::filesystem::path file;  ///< CSV (x, y, radius in metres) to import instead of making one
+  std::filesystem::path file;  ///< discs to import instead of making a packing: import_packing
+  ImportPlane file_plane = ImportPlane::xy;
+  std::string file_unit;  ///< of its lengths; "": as the file says
 };
 
 void describe(io::Schema& schema, PackingOptions& options);
+
+/// Memory is about 0.3 kB a disc; the whole way of a run takes far more.
+inline constexpr std::int64_t maximum_discs = 5'000'000;
+/// The cell must hold this many of the largest discs (as large as they are at jamming) along each side.
+inline constexpr double largest_discs_along_a_side = 3.0;
 
 /// Raised with every change of the bits make_packing gives.
 inline constexpr int packing_algorithm_version = 2;
@@ -43,9 +53,11 @@ Packing make_packing(const PackingOptions& options, double width, double height,
                      const std::function<void(double, const std::string&)>& progress = {},
                      const io::Cancellation& cancellation = {});
 
-/// A packing of someone else's: CSV with columns x, y, radius (metres), wrapped into the cell. Throws io::InputError
-/// with file and line: for a radius that does not belong in the cell, for a disc that lies within another (also across
-/// the boundary), for more area of discs than the cell has.
-Packing import_packing(const std::filesystem::path& csv, double width, double height);
+/// A packing of someone else's, options.file, wrapped into the cell: CSV with columns of the plane and radius or
+/// diameter (metres, file_unit, or units in the header), the last frame of a LAMMPS text dump, or a LAMMPS data file of
+/// spheres. Of the latter two the box must be the cell. Throws io::InputError with file and line: for what cannot be
+/// read, a unit that nobody says, a radius that does not belong in the cell, discs that lie in no plane or within each
+/// other (also across the boundary), more area of discs than the cell has.
+Packing import_packing(const PackingOptions& options, double width, double height);
 
 }  // namespace perfora::geometry

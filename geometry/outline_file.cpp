@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <functional>
 
 #include "io/csv.h"
 #include "io/error.h"
@@ -29,12 +30,14 @@ class Scanner {
     rest_.remove_prefix(1);
     return true;
   }
-  bool take_word() {
+  /// A word in any case.
+  bool take_word(std::string_view wanted) {
     skip_blanks();
-    if (!starts_with_word(rest_)) return false;
-    rest_.remove_prefix(word.size());
+    if (!starts_with_word(rest_, wanted)) return false;
+    rest_.remove_prefix(wanted.size());
     return true;
   }
+  std::size_t left() const { return rest_.size(); }
   bool take(double& number) {
     skip_blanks();
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
@@ -46,8 +49,8 @@ class Scanner {
     skip_blanks();
     return rest_.empty();
   }
-  static bool starts_with_word(std::string_view text) {
-    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(), [](char a, char b) {
+  static bool starts_with_word(std::string_view text, std::string_view wanted) {
+    return text.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), text.begin(), [](char a, char b) {
              return a == static_cast<char>(std::toupper(static_cast<unsigned char>(b)));
            });
   }
@@ -60,33 +63,98 @@ class Scanner {
   std::string_view rest_;
 };
 
-}  // namespace
-
-std::variant<std::vector<Point>, std::string> parse_wkt_polygon(std::string_view text) {
-  Scanner scanner(text);
-  if (!scanner.take_word() || !scanner.take('(') || !scanner.take('('))
-    return std::string("this is no text of the form POLYGON ((x y, x y, ...))");
-  std::vector<Point> corners;
+/// "((x y, x y, ...))" into `corners`; what is wrong with it, or nothing.
+std::string take_rings(Scanner& scanner, std::vector<Point>& corners) {
+  if (!scanner.take('(') || !scanner.take('(')) return "this is no text of the form POLYGON ((x y, x y, ...))";
   do {
     Point corner;
     if (!scanner.take(corner.x) || !scanner.take(corner.y))
       return "corner " + std::to_string(corners.size() + 1) + " has no two numbers";
-    if (corners.size() == most_read_corners) return std::string("there are too many corners");
+    if (corners.size() == most_read_corners) return "there are too many corners";
     corners.push_back(corner);
   } while (scanner.take(','));
   if (!scanner.take(')'))
     return "corner " + std::to_string(corners.size()) + " is not followed by a comma or a closing bracket";
-  if (scanner.take(',')) return std::string("the polygon has an inner ring, which would be an island in the hole");
-  if (!scanner.take(')') || !scanner.at_end()) return std::string("something follows the outer ring");
+  if (scanner.take(',')) return "the polygon has an inner ring, which would be an island in the hole";
+  if (!scanner.take(')')) return "something follows the outer ring";
   if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  return {};
+}
+
+/// Reads WKT texts one after another.
+class WktReader {
+ public:
+  explicit WktReader(std::string_view text) : whole_(text.size()), scanner_(text) {}
+
+  std::variant<std::vector<WktPolygon>, WktProblem> read() {
+    while (!scanner_.at_end() && problem_.empty()) {
+      take_geometry(0);
+      while (scanner_.take(';')) continue;
+    }
+    if (problem_.empty() && polygons_.empty()) problem_ = "there is no POLYGON";
+    if (!problem_.empty()) return WktProblem{place(), problem_};
+    return std::move(polygons_);
+  }
+
+ private:
+  std::size_t place() const { return whole_ - scanner_.left(); }
+
+  void take_polygon() {
+    static_cast<void>(scanner_.at_end());  // goes on to the first sign
+    WktPolygon polygon{place(), {}};
+    problem_ = take_rings(scanner_, polygon.corners);
+    polygons_.push_back(std::move(polygon));
+  }
+  void take_list(const std::function<void()>& one) {
+    if (!scanner_.take('(')) {
+      problem_ = "a list in brackets is wanted here";
+      return;
+    }
+    do one();
+    while (problem_.empty() && scanner_.take(','));
+    if (problem_.empty() && !scanner_.take(')')) problem_ = "the list does not end";
+  }
+  void take_geometry(int depth) {
+    constexpr int deepest = 100;
+    if (depth > deepest)
+      problem_ = "collections stand too deep within each other";
+    else if (scanner_.take_word("MULTIPOLYGON"))
+      take_list([this] { take_polygon(); });
+    else if (scanner_.take_word("GEOMETRYCOLLECTION"))
+      take_list([this, depth] { take_geometry(depth + 1); });
+    else if (scanner_.take_word(word))
+      take_polygon();
+    else
+      problem_ = "no POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION begins here";
+  }
+
+  std::size_t whole_;
+  Scanner scanner_;
+  std::vector<WktPolygon> polygons_;
+  std::string problem_;
+};
+
+}  // namespace
+
+std::variant<std::vector<Point>, std::string> parse_wkt_polygon(std::string_view text) {
+  Scanner scanner(text);
+  std::vector<Point> corners;
+  if (!scanner.take_word(word)) return std::string("this is no text of the form POLYGON ((x y, x y, ...))");
+  const std::string problem = take_rings(scanner, corners);
+  if (!problem.empty()) return problem;
+  if (!scanner.at_end()) return std::string("something follows the outer ring");
   return corners;
+}
+
+std::variant<std::vector<WktPolygon>, WktProblem> parse_wkt_polygons(std::string_view text) {
+  return WktReader(text).read();
 }
 
 std::vector<Point> read_outline(const std::filesystem::path& path) {
   constexpr std::size_t largest_file = std::size_t{1} << 24;
   const std::string text = io::read_file(path, largest_file);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && Scanner::starts_with_word(std::string_view(text).substr(first))) {
+  if (first != std::string::npos && Scanner::starts_with_word(std::string_view(text).substr(first), word)) {
     auto read = parse_wkt_polygon(text);
     if (const auto* problem = std::get_if<std::string>(&read))
       throw io::InputError({path.string(), 0, ""}, *problem, "one POLYGON of one ring", "correct the text");

@@ -180,6 +180,41 @@ std::vector<BreakEvent> read_events(const io::Hdf5Reader& file, const std::strin
   return events;
 }
 
+namespace {
+
+void write_forces(io::Hdf5Writer& file, const std::string& group, const Frame& frame) {
+  if (!frame.has_forces()) return;
+  file.dataset(group + "/discs/velocity", frame.velocity, 2, "m/s");
+  file.dataset(group + "/discs/spin", frame.spin, 0, "rad/s");
+  file.dataset(group + "/discs/stress", frame.stress, 3, "Pa");
+  file.dataset(group + "/bonds/normal_force", frame.bond_normal_force, 0, "N/m");
+  file.dataset(group + "/bonds/shear_force", frame.bond_shear_force, 0, "N/m");
+  file.dataset(group + "/contacts/pairs", frame.contact_pairs, 2);
+  file.dataset(group + "/contacts/normal_force", frame.contact_normal_force, 0, "N/m");
+  file.dataset(group + "/contacts/shear_force", frame.contact_shear_force, 0, "N/m");
+}
+
+void read_forces(const io::Hdf5Reader& file, const std::string& group, std::int32_t discs, Frame& frame) {
+  if (!file.has(group + "/discs/stress")) return;
+  const auto read = [&](const char* name, std::size_t size) {
+    std::vector<double> values = finite_doubles(file, group + name);
+    require_size(file, group + name, values, size);
+    return values;
+  };
+  const auto n = static_cast<std::size_t>(discs);
+  frame.velocity = read("/discs/velocity", 2 * n);
+  frame.spin = read("/discs/spin", n);
+  frame.stress = read("/discs/stress", 3 * n);
+  frame.bond_normal_force = read("/bonds/normal_force", frame.bond_damage.size());
+  frame.bond_shear_force = read("/bonds/shear_force", frame.bond_damage.size());
+  frame.contact_pairs = file.int32s(group + "/contacts/pairs");
+  require_discs(file, group + "/contacts/pairs", frame.contact_pairs, discs);
+  frame.contact_normal_force = read("/contacts/normal_force", frame.contact_pairs.size() / 2);
+  frame.contact_shear_force = read("/contacts/shear_force", frame.contact_pairs.size() / 2);
+}
+
+}  // namespace
+
 void write_frame_group(io::Hdf5Writer& file, const std::string& group, const Frame& frame) {
   file.dataset(group + "/discs/position", frame.position, 2, "m");
   file.dataset(group + "/discs/angle", frame.angle, 0, "rad");
@@ -187,6 +222,7 @@ void write_frame_group(io::Hdf5Writer& file, const std::string& group, const Fra
   file.dataset(group + "/discs/damage", frame.damage);
   file.dataset(group + "/bonds/pairs", frame.bond_pairs, 2);
   file.dataset(group + "/bonds/damage", frame.bond_damage);
+  write_forces(file, group, frame);
   file.attribute(group, "strain", frame.info.strain);
   file.attribute(group, "time", frame.info.time);
   file.attribute(group, "h_xx", frame.info.h_xx);
@@ -227,6 +263,7 @@ Frame read_frame_group(const io::Hdf5Reader& file, const std::string& group, con
   frame.bond_pairs = file.int32s(group + "/bonds/pairs");
   require_size(file, group + "/bonds/pairs", frame.bond_pairs, 2 * frame.bond_damage.size());
   require_discs(file, group + "/bonds/pairs", frame.bond_pairs, discs);
+  read_forces(file, group, discs, frame);
   return frame;
 }
 

@@ -25,6 +25,17 @@ struct Frame {
   std::vector<double> damage;            ///< share of the original bonds lost, damage counted, 0 to 1
   std::vector<std::int32_t> bond_pairs;  ///< (m,2)
   std::vector<double> bond_damage;       ///< D
+
+  /// Only in frames of output.frame_data = "all", else empty. Forces per metre of depth.
+  std::vector<double> velocity;              ///< (n,2), m/s, beyond the affine motion of the block
+  std::vector<double> spin;                  ///< rad/s
+  std::vector<double> stress;                ///< (n,3) xx, yy, xy over the disc's area, Pa, compression positive
+  std::vector<double> bond_normal_force;     ///< (m), N/m, tension positive
+  std::vector<double> bond_shear_force;      ///< (m), N/m
+  std::vector<std::int32_t> contact_pairs;   ///< (c,2), i < j: pairs that touch
+  std::vector<double> contact_normal_force;  ///< (c), N/m, compression positive
+  std::vector<double> contact_shear_force;   ///< (c), N/m
+  bool has_forces() const { return !stress.empty(); }
 };
 
 }  // namespace perfora::results

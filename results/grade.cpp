@@ -60,8 +60,15 @@ void GradeChange::apply(BreakEvent& event) const {
   event.energy *= stress;
 }
 
-void GradeChange::apply(FrameInfo& frame) const {
-  frame.time *= time;
+void GradeChange::apply(Frame& frame) const {
+  frame.info.time *= time;
+  multiply(frame.velocity, rate);
+  multiply(frame.spin, rate);
+  multiply(frame.stress, stress);
+  multiply(frame.bond_normal_force, stress);
+  multiply(frame.bond_shear_force, stress);
+  multiply(frame.contact_normal_force, stress);
+  multiply(frame.contact_shear_force, stress);
 }
 
 void GradeChange::apply(MaterialCurve& curve) const {

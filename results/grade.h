@@ -20,7 +20,7 @@ struct GradeChange {
   void apply(History& history) const;
   void apply(Summary& summary) const;
   void apply(BreakEvent& event) const;
-  void apply(FrameInfo& frame) const;
+  void apply(Frame& frame) const;
   void apply(MaterialCurve& curve) const;
 };
 

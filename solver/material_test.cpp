@@ -306,7 +306,7 @@ MaterialTestResult run_material_test(const MaterialTestRequest& request) {
   result.rate *= change.rate;
   result.time_step *= change.time;
   change.apply(result.curve);
-  change.apply(result.frame.info);
+  change.apply(result.frame);
   for (results::BreakEvent& event : result.events) change.apply(event);
   return result;
 }

@@ -145,7 +145,10 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false},
             "Strain between samples of the history; it changes nothing of the run.")
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
-            "Wall time between checkpoints.");
+            "Wall time between checkpoints.")
+      .choice("frame_data", output.frame_data, {{"few", FrameData::few}, {"all", FrameData::all}},
+              "few: positions, angles, fragments, damage, bonds; all: also velocities, stresses of discs, forces of "
+              "bonds and contacts. It changes nothing of the run.");
   TestOptions& test = options.test;
   schema
       .section("material_test",

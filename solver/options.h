@@ -22,6 +22,7 @@ enum class MassScaling { uniform_step, physical };
 /// an intact bond, so that free grains are slowed by contacts only.
 enum class CundallScope { all, translation, bonded };
 enum class FrameChoice { none, few, all };
+enum class FrameData { few, all };
 enum class KernelChoice { reference, openmp };
 enum class SimdChoice { automatic, avx512, avx2, portable };
 enum class TopBottom { periodic, platens };
@@ -94,6 +95,7 @@ struct BoundaryOptions {
 /// [output]
 struct OutputOptions {
   FrameChoice frames = FrameChoice::few;
+  FrameData frame_data = FrameData::few;
   std::vector<double> frame_strains;  ///< explicit list wins over `frames`
   std::filesystem::path curve;        ///< CSV of a measured curve that pictures show beside the run; empty: none
   double history_interval = 5.0e-4;   ///< strain between history rows

@@ -101,8 +101,7 @@ class Run {
   }
 
  private:
-  /// What a resumed run must share with the run it goes on from: configuration, seeds, results version and instruction
-  /// set.
+  /// What a resumed run must share with the one before: configuration, seeds, results version, instruction set.
   std::string identity() const {
     return fmt::format("# results_version {}, seeds {}, kernel {}\n", request_.provenance.results_version,
                        request_.provenance.seeds, simulation_->simd()) +
@@ -226,7 +225,8 @@ class Run {
 
   results::Frame frame_now() const {
     results::Frame frame = take_frame(*simulation_, original_bonds_);
-    grade_.apply(frame.info);
+    add_forces(frame, *simulation_, request_.options, request_.mean_diameter);
+    grade_.apply(frame);
     return frame;
   }
 

@@ -63,7 +63,7 @@ Discs periodic_discs(const Design& design, const geometry::PerforationLayout& la
   const double width = design.layout.cell_width(), height = design.layout.cell_height();
   const geometry::PackingOptions& options = design.packing;
   if (!options.file.empty()) {
-    const geometry::Packing packing = geometry::import_packing(options.file, width, height);
+    const geometry::Packing packing = geometry::import_packing(options, width, height);
     Discs discs{packing.size(), packing.mean_diameter(), 0, {}};
     discs.left = geometry::clip_packing(packing, layout, options.clip).size();
     for (const double radius : packing.radius) discs.diameters.push_back(2.0 * radius);

@@ -36,7 +36,7 @@ std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, 
   const double width = design.layout.cell_width(), height = design.layout.cell_height();
   if (!design.packing.file.empty()) {
     auto imported =
-        std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing.file, width, height));
+        std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing, width, height));
     if (options.packing_file.empty()) return imported;
     return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, imported->key));
   }

@@ -199,11 +199,17 @@ TEST(MeasurePacking, DiscsThatLeanOnRattlersAreRattlersToo) {
   EXPECT_EQ(quality.rattler_fraction, 1.0);
 }
 
+PackingOptions imported(const std::filesystem::path& file) {
+  PackingOptions options;
+  options.file = file;
+  return options;
+}
+
 TEST(ImportPacking, ReadsWrapsAndMeasures) {
   const std::filesystem::path csv =
       std::filesystem::path(testing::TempDir()) / ("discs-" + std::to_string(::getpid()) + ".csv");
   std::ofstream(csv) << "x,y,radius\n0.001,0.001,0.0005\n0.0119,0.001,0.0005\n-0.001,0.011,0.0005\n";
-  const Packing packing = import_packing(csv, 0.01, 0.01);
+  const Packing packing = import_packing(imported(csv), 0.01, 0.01);
   ASSERT_EQ(packing.size(), 3);
   EXPECT_NEAR(packing.x[1], 0.0019, 1e-15);
   EXPECT_NEAR(packing.x[2], 0.009, 1e-15);
@@ -215,7 +221,7 @@ TEST(ImportPacking, ReadsWrapsAndMeasures) {
   EXPECT_EQ(make_packing(options, 0.01, 0.01, 7, 1).x, packing.x);
   std::ofstream(csv) << "x,y,radius\n0.001,0.001,0.0005\n0.001,0.002,-1\n";
   try {
-    import_packing(csv, 0.01, 0.01);
+    import_packing(imported(csv), 0.01, 0.01);
     FAIL();
   } catch (const io::InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr(csv.string() + ":3: packing.file"));
@@ -240,7 +246,7 @@ TEST(ImportPacking, RefusesWhatIsNoPacking) {
   for (const auto& [text, complaint] : cases) {
     std::ofstream(csv) << text;
     try {
-      import_packing(csv, 0.01, 0.01);
+      import_packing(imported(csv), 0.01, 0.01);
       ADD_FAILURE() << complaint;
     } catch (const io::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(complaint));

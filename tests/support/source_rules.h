@@ -32,10 +32,11 @@ inline const std::vector<Room> rooms = {
      {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/model"}},
     {"perfora", {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/search"}},
     {"bindings", {"perfora"}},
+    {"report/export", {"io", "geometry", "results"}},
     {"report", {"io", "geometry", "results"}},
     {"app",
      {"io", "geometry", "results", "solver", "optimize/evaluate", "optimize/campaign", "optimize/model",
-      "optimize/search", "report"}},
+      "optimize/search", "report", "report/export"}},
 };
 
 /// Headers of the room perfora that are not installed; the others include the standard library and each other alone.

@@ -1,5 +1,5 @@
 // What is here: the XDMF file names datasets that exist, of the sizes it says. What is not: ParaView
-// (tests/viewers/check_xdmf.py).
+// (tests/viewers/check_paraview.py).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "io/files.h"
 #include "io/hdf5.h"
-#include "report/xdmf.h"
+#include "report/export/xdmf.h"
 #include "tests/results/synthetic_run.h"
 
 namespace perfora::report {

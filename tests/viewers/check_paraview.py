@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Opens an R.xdmf in ParaView and compares what it shows with R.h5 as h5py reads it.
+"""Opens an R.xdmf and an R.pvd in ParaView and compares what it shows with R.h5 as h5py reads it; draws discs by their
+radii with the recipe of the documentation and compares the coloured area with that of the discs.
 
-usage: check_xdmf.py WRITE_SYNTHETIC FOLDER   writes R.h5 and R.xdmf into FOLDER first
-       check_xdmf.py R.xdmf                   checks a file that exists, R.h5 beside it
+usage: check_paraview.py WRITE_SYNTHETIC FOLDER    writes R.h5, R.xdmf and R.pvd into FOLDER first; also checks that files
+                                                   which say something else are found out
+       check_paraview.py R.xdmf|R.pvd              checks a file that exists, R.h5 beside it
 
 Exit code 77 (CTest: skipped) where pvbatch or h5py is missing.
 """
+import importlib.util
 import json
 import shutil
 import subprocess
@@ -53,7 +56,10 @@ def look():
         return steps
 
     path = sys.argv[-1]
-    print("LOOK " + json.dumps({"default": report(OpenDataFile(path)), "XDMFReader": report(XDMFReader(FileNames=[path]))}))
+    seen = {"default": report(OpenDataFile(path))}
+    if path.endswith(".xdmf"):
+        seen["XDMFReader"] = report(XDMFReader(FileNames=[path]))
+    print("LOOK " + json.dumps(seen))
 
 
 def expected(run_file):
@@ -111,28 +117,81 @@ def compare(reader, seen, wanted):
         require(close(cell["cell_arrays"]["strain"], [want["strain"]] * 2), f"{where}: strain")
 
 
-def main():
-    pvbatch = shutil.which("pvbatch")
-    try:
-        import h5py  # noqa: F401
-        have_h5py = True
-    except ImportError:
-        have_h5py = False
-    if pvbatch is None or not have_h5py:
-        print("SKIPPED: " + ("pvbatch (python3-paraview)" if pvbatch is None else "h5py (python3-h5py)") + " is not installed")
-        sys.exit(SKIPPED)
-    xdmf = Path(sys.argv[1])
-    if len(sys.argv) > 2:
-        subprocess.run([sys.argv[1], sys.argv[2]], check=True)
-        xdmf = Path(sys.argv[2]) / "R.xdmf"
-    run = subprocess.run([pvbatch, "--force-offscreen-rendering", __file__, "--look", str(xdmf.resolve())],
+def look_at(file):
+    """What each reader of pvbatch shows of a file."""
+    run = subprocess.run(["pvbatch", "--force-offscreen-rendering", __file__, "--look", str(file.resolve())],
                          capture_output=True, text=True, timeout=240)
     lines = [line for line in run.stdout.splitlines() if line.startswith("LOOK ")]
     require(lines, f"pvbatch printed no result (exit code {run.returncode}):\n{run.stdout}\n{run.stderr}")
-    wanted = expected(xdmf.with_suffix(".h5"))
-    for reader, seen in json.loads(lines[0][5:]).items():
-        compare(reader, seen, wanted)
-    print(f"passed: {len(wanted)} time steps, {wanted[0]['discs']} discs, {wanted[0]['bonds']} bonds in the first, two readers")
+    return json.loads(lines[0][5:])
+
+
+def check(file, wanted):
+    for reader, seen in look_at(file).items():
+        compare(f"{file.name}: {reader}", seen, wanted)
+
+
+def require_found_out(file, wanted, change):
+    """A file that says something else must not pass."""
+    good = file.read_bytes()
+    bad = change(good)
+    require(bad != good, f"{file.name}: nothing was changed")
+    file.write_bytes(bad)
+    try:
+        check(file, wanted)
+    except SystemExit:
+        return
+    finally:
+        file.write_bytes(good)
+    sys.exit(f"FAILED: {file.name}: a wrong file passed")
+
+
+def check_discs_drawn(pvd, run_file):
+    """The recipe of docs/user/exports.md: coloured area of the picture over that of the block against that of the discs."""
+    import h5py
+    import numpy
+    from PIL import Image
+
+    recipe = Path(__file__).resolve().parents[2] / "docs/user/paraview-discs.py"
+    picture = pvd.with_suffix(".png")
+    # Debian's ParaView draws into a window only.
+    subprocess.run(["xvfb-run", "-a", "pvbatch", str(recipe), str(pvd.resolve()), str(picture.resolve())], check=True,
+                   timeout=240, capture_output=True)
+    pixels = numpy.asarray(Image.open(picture).convert("RGB")).astype(int)
+    drawn = (abs(pixels - 255).max(axis=2) > 20)
+    with h5py.File(run_file, "r") as file:
+        radius, first = file["clipped/radius"][:], file["frames/00000"]
+        block, positions = (first.attrs["h_xx"], first.attrs["h_yy"]), first["discs/position"][:]
+    rows, columns = numpy.nonzero(drawn)
+    box = (columns.max() - columns.min() + 1) * (rows.max() - rows.min() + 1)
+    spans = [(positions[:, k] + radius).max() - (positions[:, k] - radius).min() for k in range(2)]
+    share, wanted = drawn.sum() / box, numpy.pi * (radius ** 2).sum() / (spans[0] * spans[1])
+    require(abs(share - wanted) < 0.05 * wanted, f"discs cover {share:.4f} of their box in the picture, not {wanted:.4f}")
+    return share
+
+
+def main():
+    missing = [name for name in ("h5py", "PIL") if importlib.util.find_spec(name) is None]
+    missing += [f"{name} ({package})" for name, package in (("pvbatch", "python3-paraview"), ("xvfb-run", "xvfb"))
+                if shutil.which(name) is None]
+    if missing:
+        print("SKIPPED: not installed: " + ", ".join(missing))
+        sys.exit(SKIPPED)
+    if len(sys.argv) == 2:
+        file = Path(sys.argv[1])
+        check(file, expected(file.with_suffix(".h5")))
+        print("passed")
+        return
+    folder = Path(sys.argv[2])
+    subprocess.run([sys.argv[1], sys.argv[2]], check=True)
+    wanted = expected(folder / "R.h5")
+    for name in ("R.xdmf", "R.pvd"):
+        check(folder / name, wanted)
+    require_found_out(folder / "R.xdmf", wanted, lambda text: text.replace(b'<Time Value="0"/>', b'<Time Value="0.25"/>'))
+    require_found_out(folder / "R.pvd", wanted, lambda text: text.replace(b'00000-discs.vtp', b'00001-discs.vtp', 1))
+    share = check_discs_drawn(folder / "R.pvd", folder / "R.h5")
+    print(f"passed: {len(wanted)} time steps, {wanted[0]['discs']} discs, {wanted[0]['bonds']} bonds in the first, "
+          f"three readers; discs drawn cover {100 * share:.1f} % of their box")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // What is here: the XDMF file and its companion. What is not: reading of R.h5 (results/run_file.h).
 // What ParaView 5.11 needs was tried file by file: points need an explicit connectivity, HyperSlab items lose their
 // geometry, so each frame names datasets of its own.
-#include "report/xdmf.h"
+#include "report/export/xdmf.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 
 #include "io/files.h"
 #include "io/hdf5.h"
+#include "report/export/xml.h"
 #include "results/frame.h"
 #include "results/run_file.h"
 
@@ -31,37 +32,16 @@ std::string attribute(const std::string& name, const char* centre, const std::st
                      centre, data);
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// results::Bonds as they lie in the picture.
 struct Lines {
   std::vector<std::int32_t> pairs;
   std::vector<double> damage;
 };
 
-/// Leaves out the bonds whose ends lie more than half a cell apart: those reach across the periodic boundary.
+/// Without the bonds that reach across the periodic boundary.
 Lines lines_of(const results::Frame& frame) {
   Lines lines;
-  const results::FrameInfo& cell = frame.info;
-  for (std::size_t b = 0; b < frame.bond_damage.size(); ++b) {
-    const auto i = static_cast<std::size_t>(frame.bond_pairs[2 * b]);
-    const auto j = static_cast<std::size_t>(frame.bond_pairs[2 * b + 1]);
-    const double dy = frame.position[2 * j + 1] - frame.position[2 * i + 1];
-    const double dx = frame.position[2 * j] - frame.position[2 * i] - cell.h_xy / cell.h_yy * dy;
-    if (std::abs(dx) > 0.5 * cell.h_xx || std::abs(dy) > 0.5 * cell.h_yy) continue;
+  for (const std::size_t b : bonds_inside(frame.info, frame.position, frame.bond_pairs)) {
     lines.pairs.insert(lines.pairs.end(), {frame.bond_pairs[2 * b], frame.bond_pairs[2 * b + 1]});
     lines.damage.push_back(frame.bond_damage[b]);
   }
@@ -72,13 +52,14 @@ Lines lines_of(const results::Frame& frame) {
 struct Names {
   std::string run, companion;
   std::int32_t discs = 0;
+  TimeAxis axis = TimeAxis::time;
 };
 
 /// One grid at one time. `body`: topology, geometry, attributes.
-std::string grid(const char* name, const results::FrameInfo& frame, const std::string& body) {
+std::string grid(const char* name, TimeAxis axis, const results::FrameInfo& frame, const std::string& body) {
   return fmt::format(
       "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n{}      </Grid>\n", name,
-      frame.time, body);
+      axis == TimeAxis::strain ? frame.strain : frame.time, body);
 }
 
 std::string topology(const char* type, std::size_t cells, int nodes, const std::string& data) {
@@ -97,7 +78,7 @@ std::string geometry_of(const Names& names, const results::FrameInfo& frame) {
 std::string discs_grid(const Names& names, const results::FrameInfo& frame) {
   const std::string n = std::to_string(names.discs);
   const std::string group = names.run + ":/frames/" + frame.name + "/discs/";
-  return grid("discs", frame,
+  return grid("discs", names.axis, frame,
               topology("Polyvertex", static_cast<std::size_t>(names.discs), 1,
                        item(Number::int32, n + " 1", names.companion + ":/discs/connectivity")) +
                   geometry_of(names, frame) +
@@ -110,7 +91,7 @@ std::string discs_grid(const Names& names, const results::FrameInfo& frame) {
 std::string bonds_grid(const Names& names, const results::FrameInfo& frame, std::size_t bonds) {
   const std::string m = std::to_string(bonds);
   const std::string group = names.companion + ":/frames/" + frame.name + "/bonds/";
-  return grid("bonds", frame,
+  return grid("bonds", names.axis, frame,
               topology("Polyline", bonds, 2, item(Number::int32, m + " 2", group + "pairs")) +
                   geometry_of(names, frame) + attribute("damage", "Cell", item(Number::float64, m, group + "damage")));
 }
@@ -121,10 +102,10 @@ std::string inline_item(Number number, const char* dimensions, const std::string
                      is_integer ? "Int" : "Float", is_integer ? 4 : 8, dimensions, values);
 }
 
-std::string cell_grid(const results::FrameInfo& cell) {
+std::string cell_grid(TimeAxis axis, const results::FrameInfo& cell) {
   const std::string corners = fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx,
                                           cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
-  return grid("cell", cell,
+  return grid("cell", axis, cell,
               topology("Polyline", 1, 5, inline_item(Number::int32, "1 5", "0 1 2 3 0")) +
                   "        <Geometry GeometryType=\"XY\">" + inline_item(Number::float64, "4 2", corners) +
                   "</Geometry>\n" +
@@ -145,12 +126,12 @@ std::filesystem::path seen_from(const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out) {
+void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out, TimeAxis axis) {
   const results::RunResult run = results::read_run(run_file);
   std::filesystem::path companion = out;
   companion += ".h5";
-  const Names names{escaped(seen_from(out.parent_path(), run_file).string()), escaped(companion.filename().string()),
-                    run.clipped.size()};
+  const Names names{escaped_xml(seen_from(out.parent_path(), run_file).string()),
+                    escaped_xml(companion.filename().string()), run.clipped.size(), axis};
 
   io::Hdf5Writer file(companion);
   file.attribute("/", "format", std::string("perfora.xdmf/1"));
@@ -166,7 +147,7 @@ void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::pa
     file.dataset("/frames/" + info.name + "/bonds/damage", lines.damage);
     discs += discs_grid(names, info);
     bonds += bonds_grid(names, info, lines.damage.size());
-    cells += cell_grid(info);
+    cells += cell_grid(axis, info);
   }
   file.commit();
   io::write_file(out, "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n" + collection("discs", discs) +

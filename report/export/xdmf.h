@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "report/export/scene.h"
+
 namespace perfora::report {
 
 /// Writes `out` (R.xdmf) and beside it `<out>.h5`, which holds what XDMF needs and R.h5 has not: the connectivity of
@@ -12,6 +14,7 @@ namespace perfora::report {
 /// `discs` (points; radius, angle, fragment, damage), `bonds` (lines; damage), `cell` (outline; strain). ParaView 5.11
 /// offers several readers: "XDMF Reader" shows the three as named blocks, the Xdmf3 readers show them without names.
 /// Throws io::InputError for a bad run file; a run without frames gives empty collections.
-void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out);
+void write_xdmf(const std::filesystem::path& run_file, const std::filesystem::path& out,
+                TimeAxis axis = TimeAxis::time);
 
 }  // namespace perfora::report
