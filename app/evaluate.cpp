@@ -165,6 +165,14 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   return exit_code_of(ensemble.status);
 }
 
+int evaluate_in_dakota(const EvaluateFlags& flags) {
+  if (!flags.output.empty() || !flags.packing.empty() || flags.elastic || flags.resume || flags.replicates > 0 ||
+      flags.wall_time > 0.0)
+    throw io::InputError({"--dakota", 0, ""}, "takes one evaluation from a file and writes its results to another",
+                         "beside it --set, --until, --threads, --memory, --force, --quiet and seeds");
+  return evaluate_for_dakota({flags.design, flags.dakota.at(0), flags.dakota.at(1)}, flags.common, overrides_of(flags));
+}
+
 }  // namespace
 
 void add_evaluate(CLI::App& program, int& exit_code) {
@@ -192,19 +200,17 @@ void add_evaluate(CLI::App& program, int& exit_code) {
                    "Stop with a checkpoint after this many seconds (of each replicate)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
-  CLI::Option* dakota =
-      command->add_option("--dakota", flags->dakota,
-                          "One evaluation for Dakota: the variables of PARAMS are keys of the design, "
-                          "its responses are measures, RESULTS is written (docs/user/dakota.md)");
-  dakota->expected(2)->type_name("PARAMS RESULTS");
-  for (const char* other : {"--output", "--packing", "--elastic", "--resume", "--replicates", "--wall-time"})
-    dakota->excludes(command->get_option(other));
+  command
+      ->add_option("--dakota", flags->dakota,
+                   "One evaluation for Dakota: its variables are keys of the design, its responses are measures "
+                   "(docs/user/dakota.md)")
+      ->expected(2)
+      ->type_name("PARAMS RESULTS");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();
     if (!flags->dakota.empty()) {
-      exit_code = evaluate_for_dakota({flags->design, flags->dakota.at(0), flags->dakota.at(1)}, flags->common,
-                                      overrides_of(*flags));
+      exit_code = evaluate_in_dakota(*flags);
       return;
     }
     refuse_resume_with_force(flags->resume, flags->common.force);
