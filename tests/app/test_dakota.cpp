@@ -31,7 +31,8 @@ class Dakota : public CommandLine {
 };
 
 TEST_F(Dakota, ResponsesAreTheMeasuresOfTheDesignWithItsVariables) {
-  write_standard("5.500000000000000e-03", "  1 ASV_1:plateau_stress\n  0 ASV_2:peaks\n  1 ASV_3:porosity\n", 3);
+  write_standard("5.500000000000000e-03",
+                 "  1 ASV_1:plateau_stress\n  0 ASV_2:intermediate_peaks\n  1 ASV_3:porosity\n", 3);
   const Outcome outcome = run("evaluate d.toml --dakota params.in results.out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(outcome.output, "");
@@ -71,11 +72,11 @@ TEST_F(Dakota, PointsWithoutAnAnswerFail) {
   write_standard("-1e-3", "  1 ASV_1:porosity\n", 1);
   EXPECT_EQ(run("evaluate d.toml --dakota params.in results.out --force").exit_code, 0);
   EXPECT_EQ(results(), "FAIL\n");
-  write_standard("5.5e-3", "  1 ASV_1:porosity\n  1 ASV_2:densification_strain\n", 2);  // beyond 1 % of strain
+  write_standard("5.5e-3", "  1 ASV_1:porosity\n  1 ASV_2:stroke_at_cap\n", 2);  // there is no cap
   const Outcome early = run("evaluate d.toml --dakota params.in results.out --force");
   EXPECT_EQ(early.exit_code, 0);
   EXPECT_EQ(results(), "FAIL\n");
-  EXPECT_THAT(early.error, HasSubstr("densification_strain was not reached"));
+  EXPECT_THAT(early.error, HasSubstr("stroke_at_cap was not reached"));
 }
 
 TEST_F(Dakota, MistakesOfTheStudyAreRefused) {

@@ -54,8 +54,8 @@ TEST(PublicFiles, ElasticResponseIsTheFilesOne) {
   EXPECT_EQ(read.discs.x, response.packed.clipped.x);
   EXPECT_EQ(read.displacement[1].size(), 3 * read.discs.x.size());
   EXPECT_GT(read.stiffness[4], 0.0);
-  EXPECT_GT(read.affine_stiffness[4], read.stiffness[4]);  // relaxation makes it softer
-  EXPECT_EQ(read.stiffness[1], read.stiffness[3]);
+  EXPECT_GT(read.affine_stiffness[4], read.stiffness[4]);                       // relaxation makes it softer
+  EXPECT_NEAR(read.stiffness[1], read.stiffness[3], 1e-6 * read.stiffness[4]);  // symmetric, as the solver converges
   EXPECT_THAT(read.record, HasSubstr("perfora.elastic/1"));
   EXPECT_EQ(Design::from_toml(read.design).to_toml(), small_block().to_toml());
   EXPECT_NE(error_of([&] { static_cast<void>(read_material_tests(folder / "e.h5")); }), "");
