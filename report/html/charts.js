@@ -42,7 +42,11 @@ Report.markPlugin = (marks, linked) => {
     const clampY = (value) => (Number.isFinite(value) ? y.getPixelForValue(value) : value > 0 ? area.top : area.bottom);
     for (const mark of marks) {
       const band = mark.kind.endsWith("band");
-      if (band !== behind) continue;
+      mark.textAt = null;
+      if (band !== behind) {
+        if (band) mark.textAt = mark.bandTextAt;
+        continue;
+      }
       ctx.setLineDash(mark.dash || []);
       ctx.strokeStyle = ctx.fillStyle = mark.colour || Report.colour("soft");
       ctx.lineWidth = 1.5;
@@ -51,11 +55,11 @@ Report.markPlugin = (marks, linked) => {
       if (mark.kind === "x-band") {
         const left = x.getPixelForValue(mark.low), right = x.getPixelForValue(mark.high);
         ctx.fillRect(left, area.top, right - left, area.bottom - area.top);
-        if (mark.label) mark.textAt = [left + 4, area.bottom - 17];
+        if (mark.label) mark.bandTextAt = [left + 4, area.bottom - 17];
       } else if (mark.kind === "y-band") {
         const top = clampY(mark.high), bottom = clampY(mark.low);
         ctx.fillRect(from, top, to - from, bottom - top);
-        if (mark.label) mark.textAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
+        if (mark.label) mark.bandTextAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
       } else {
         ctx.beginPath();
         if (mark.kind === "x") {

@@ -38,7 +38,7 @@ Report.runSections = async (run, name) => {
   const state = {log: false, smooth: true, frame: 0};
   const marks = () => {
     const list = [], m = run.marks;
-    if (m.window) list.push({kind: "x-band", low: 100 * m.window[0], high: 100 * m.window[1], colour: Report.colour("band"), label: "plateau window"});
+    if (m.window && 100 * m.window[0] < limits.max) list.push({kind: "x-band", low: 100 * m.window[0], high: 100 * m.window[1], colour: Report.colour("band"), label: "plateau window"});
     for (const wish of run.verdict ? run.verdict.wishes : [])
       if (wish.measure === "plateau_stress") list.push(Report.wishBand(wish.low, wish.high, m.window, unit.scale));
       else if (wish.measure === "first_peak_stress" && wish.high !== null)
@@ -50,7 +50,7 @@ Report.runSections = async (run, name) => {
     if (m.first_peak_strain !== null)
       list.push({kind: "point", x: 100 * m.first_peak_strain, y: m.first_peak_stress * unit.scale, colour: Report.series(1), label: `first peak ${Report.digits(m.first_peak_stress * unit.scale)} ${unit.name}`});
     const dense = m.densification_strain ?? m.densification_onset;
-    if (dense !== null && 100 * dense <= limits.max)
+    if (dense !== null && 100 * dense < 0.999 * limits.max)
       list.push({kind: "x", at: 100 * dense, dash: [6, 4], label: "densification"});
     return list;
   };
