@@ -7,9 +7,21 @@ Report.series = (k) => Report.colour("series-" + (((k % 8) + 8) % 8));
 
 /** The strain (%) under the pointer and that of the frame shown; both null where there is none. */
 Report.link = {pointer: null, frame: null, charts: [], pick: null};
+/** Calls `act` soon, once however often it is asked for: the block moves at once, charts follow at their own pace. */
+Report.soon = (act, wait) => {
+  let due = null;
+  return () => {
+    if (due === null) due = setTimeout(() => {
+      due = null;
+      act();
+    }, wait);
+  };
+};
+Report.link.follow = Report.soon(() => Report.link.charts.forEach((chart) => chart.draw()), 150);
+Report.link.point = Report.soon(() => Report.link.charts.forEach((chart) => chart.draw()), 16);
 Report.link.show = (changes) => {
   Object.assign(Report.link, changes);
-  for (const chart of Report.link.charts) chart.draw();
+  "pointer" in changes ? Report.link.point() : Report.link.follow();
 };
 
 Report.allCharts = [];

@@ -72,8 +72,9 @@ Report.runSections = async (run, name) => {
     return {bars: true, x: {label: "diameter of a disc of the fragment's area", choices: frames.size_classes}, y: {label: "share of the solid (%)", min: 0, max: 100},
             series: [{label: "", y: percent(info.fragments.fraction), colour: Report.series(0), info: info.fragments.count.map((count, k) => `${Report.digits(100 * info.fragments.fraction[k])} % in ${count} fragment${count === 1 ? "" : "s"}`)}]};
   }, {note: "in the frame shown"}) : null;
+  const followSizes = Report.soon(() => sizes.redraw(), 250);
   const block = await Report.readBlock(frames);
-  const viewer = block ? Report.viewer(block, {onFrame: (frame) => { state.frame = frame; sizes.redraw(); }}) : null;
+  const viewer = block ? Report.viewer(block, {onFrame: (frame) => { state.frame = frame; followSizes(); }}) : null;
 
   const linked = (caption, parts, options = {}) => {
     const known = parts.filter(([column]) => columns[column] && Report.largest(columns[column]) > 0);
