@@ -7,9 +7,21 @@ Report.series = (k) => Report.colour("series-" + (((k % 8) + 8) % 8));
 
 /** The strain (%) under the pointer and that of the frame shown; both null where there is none. */
 Report.link = {pointer: null, frame: null, charts: [], pick: null};
+/** Calls `act` soon, once however often it is asked for: the block moves at once, charts follow at their own pace. */
+Report.soon = (act, wait) => {
+  let due = null;
+  return () => {
+    if (due === null) due = setTimeout(() => {
+      due = null;
+      act();
+    }, wait);
+  };
+};
+Report.link.follow = Report.soon(() => Report.link.charts.forEach((chart) => chart.draw()), 150);
+Report.link.point = Report.soon(() => Report.link.charts.forEach((chart) => chart.draw()), 16);
 Report.link.show = (changes) => {
   Object.assign(Report.link, changes);
-  for (const chart of Report.link.charts) chart.draw();
+  "pointer" in changes ? Report.link.point() : Report.link.follow();
 };
 
 Report.allCharts = [];
@@ -42,7 +54,11 @@ Report.markPlugin = (marks, linked) => {
     const clampY = (value) => (Number.isFinite(value) ? y.getPixelForValue(value) : value > 0 ? area.top : area.bottom);
     for (const mark of marks) {
       const band = mark.kind.endsWith("band");
-      if (band !== behind) continue;
+      mark.textAt = null;
+      if (band !== behind) {
+        if (band) mark.textAt = mark.bandTextAt;
+        continue;
+      }
       ctx.setLineDash(mark.dash || []);
       ctx.strokeStyle = ctx.fillStyle = mark.colour || Report.colour("soft");
       ctx.lineWidth = 1.5;
@@ -51,11 +67,11 @@ Report.markPlugin = (marks, linked) => {
       if (mark.kind === "x-band") {
         const left = x.getPixelForValue(mark.low), right = x.getPixelForValue(mark.high);
         ctx.fillRect(left, area.top, right - left, area.bottom - area.top);
-        if (mark.label) mark.textAt = [left + 4, area.bottom - 17];
+        if (mark.label) mark.bandTextAt = [left + 4, area.bottom - 17];
       } else if (mark.kind === "y-band") {
         const top = clampY(mark.high), bottom = clampY(mark.low);
         ctx.fillRect(from, top, to - from, bottom - top);
-        if (mark.label) mark.textAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
+        if (mark.label) mark.bandTextAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
       } else {
         ctx.beginPath();
         if (mark.kind === "x") {

@@ -113,6 +113,11 @@ NormalSprings normal_springs(const RunResult& run) {
 std::vector<double> disc_pressure(const RunResult& run, const Frame& frame, const NormalSprings& springs) {
   const std::vector<double>& radius = run.clipped.radius;
   std::vector<double> pressure(radius.size(), 0.0);
+  if (frame.has_forces()) {
+    for (std::size_t d = 0; d < pressure.size(); ++d)
+      pressure[d] = 0.5 * (frame.stress[3 * d] + frame.stress[3 * d + 1]);
+    return pressure;
+  }
   if (springs.stiffness <= 0.0 || radius.empty()) return pressure;
   const Images images{frame.info, !run.edges.open_x(), !run.edges.platens};
   const auto between = [&](std::size_t i, std::size_t j) {

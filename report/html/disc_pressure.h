@@ -18,8 +18,8 @@ NormalSprings normal_springs(const results::RunResult& run);
 
 /// Mean stress of each disc, Pa, compression positive: half of the sum over its bonds and contacts of -f_n |r|/2, over
 /// the disc's area (the trace of its stress tensor over two; shear forces, at right angles to r, add nothing to it).
-/// f_n as in docs/user/theory.md, "Bonds" and "Contacts", without the viscous part. Zero without a stiffness. Cost:
-/// linear in discs and bonds.
+/// Frames that hold their stresses give those. f_n as in docs/user/theory.md, "Bonds" and "Contacts", without the
+/// viscous part. Zero without a stiffness. Cost: linear in discs and bonds.
 std::vector<double> disc_pressure(const results::RunResult& run, const results::Frame& frame,
                                   const NormalSprings& springs);
 

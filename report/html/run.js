@@ -38,7 +38,7 @@ Report.runSections = async (run, name) => {
   const state = {log: false, smooth: true, frame: 0};
   const marks = () => {
     const list = [], m = run.marks;
-    if (m.window) list.push({kind: "x-band", low: 100 * m.window[0], high: 100 * m.window[1], colour: Report.colour("band"), label: "plateau window"});
+    if (m.window && 100 * m.window[0] < limits.max) list.push({kind: "x-band", low: 100 * m.window[0], high: 100 * m.window[1], colour: Report.colour("band"), label: "plateau window"});
     for (const wish of run.verdict ? run.verdict.wishes : [])
       if (wish.measure === "plateau_stress") list.push(Report.wishBand(wish.low, wish.high, m.window, unit.scale));
       else if (wish.measure === "first_peak_stress" && wish.high !== null)
@@ -50,7 +50,7 @@ Report.runSections = async (run, name) => {
     if (m.first_peak_strain !== null)
       list.push({kind: "point", x: 100 * m.first_peak_strain, y: m.first_peak_stress * unit.scale, colour: Report.series(1), label: `first peak ${Report.digits(m.first_peak_stress * unit.scale)} ${unit.name}`});
     const dense = m.densification_strain ?? m.densification_onset;
-    if (dense !== null && 100 * dense <= limits.max)
+    if (dense !== null && 100 * dense < 0.999 * limits.max)
       list.push({kind: "x", at: 100 * dense, dash: [6, 4], label: "densification"});
     return list;
   };
@@ -72,8 +72,9 @@ Report.runSections = async (run, name) => {
     return {bars: true, x: {label: "diameter of a disc of the fragment's area", choices: frames.size_classes}, y: {label: "share of the solid (%)", min: 0, max: 100},
             series: [{label: "", y: percent(info.fragments.fraction), colour: Report.series(0), info: info.fragments.count.map((count, k) => `${Report.digits(100 * info.fragments.fraction[k])} % in ${count} fragment${count === 1 ? "" : "s"}`)}]};
   }, {note: "in the frame shown"}) : null;
+  const followSizes = Report.soon(() => sizes.redraw(), 250);
   const block = await Report.readBlock(frames);
-  const viewer = block ? Report.viewer(block, {onFrame: (frame) => { state.frame = frame; sizes.redraw(); }}) : null;
+  const viewer = block ? Report.viewer(block, {onFrame: (frame) => { state.frame = frame; followSizes(); }}) : null;
 
   const linked = (caption, parts, options = {}) => {
     const known = parts.filter(([column]) => columns[column] && Report.largest(columns[column]) > 0);

@@ -35,7 +35,7 @@ Report.ramp = (part) => {
 /** Parallel coordinates of candidates in SVG: an axis a column, a line a candidate, coloured by the last column. */
 Report.parallel = (columns, rows, best) => {
   const width = 900, height = 320, top = 34, bottom = 26, left = 60, right = 60;
-  const svg = Report.svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Parallel coordinates of the candidates", style: "width:100%;min-width:560px"});
+  const svg = Report.svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Parallel coordinates of the candidates", style: "width:100%;min-width:860px"});
   const ends = columns.map((column, k) => {
     const values = rows.map((row) => row.values[k]).filter((value) => value !== null);
     const low = Math.min(...values), high = Math.max(...values);

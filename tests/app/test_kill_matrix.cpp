@@ -188,7 +188,8 @@ std::map<std::string, std::string> results_in(const fs::path& folder) {
     else if (kind == ".h5")
       add_hdf5(io::Hdf5Reader(entry.path()), "/", found[name]);
     else
-      found[name] = kind == ".jsonl" ? "journal" : text_of(entry.path());
+      // A report holds times and the command: what it draws is in the other files.
+      found[name] = kind == ".jsonl" ? "journal" : kind == ".html" ? "report" : text_of(entry.path());
   }
   return found;
 }
