@@ -107,12 +107,12 @@ TEST_F(ModelSearcherTest, SamplesEndWhereNoPointKeepsTheWalls) {
 // Optimum of fake_evaluation(): diameter 17.5 mm, jitter 0.4 mm, in the arm of two rows; four holes there, six in the
 // other arm, which costs 0.6 in the plateau.
 TEST_F(ModelSearcherTest, ModelFindsTheOptimum) {
-  const Study learning = study("model", 24, "rows = [2, 3]"), sampling = study("sobol", 24, "rows = [2, 3]");
+  const Study learning = study("model", 20, "rows = [2, 3]"), sampling = study("sobol", 20, "rows = [2, 3]");
   CandidateBook book(learning), other(sampling);
   Answers known, unrelated;
   const std::vector<Trace> traces = carried_out(learning, book, known, stage_of(learning));
   const std::vector<Trace> sampled = carried_out(sampling, other, unrelated, stage_of(sampling));
-  EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 24U);
+  EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 20U);
   EXPECT_EQ(traces[0].reason, "maxeval reached");
   EXPECT_LT(best_of(traces), 0.005) << "within 7 % of the wished stress";
   EXPECT_LT(best_of(traces), 0.5 * best_of(sampled));
