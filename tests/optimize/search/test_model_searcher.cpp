@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "optimize/search/model_record.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_model.h"
 #include "tests/optimize/search/study_support.h"
@@ -164,6 +165,16 @@ TEST_F(ModelSearcherTest, GoesOnFromAMap) {
   for (const Visit& visit : trace.visits)
     nearest = std::min(nearest, fake_distance(visit.candidate->values[0], visit.candidate->values[1]));
   EXPECT_LT(std::sqrt(nearest), 0.1);
+  // At the end: what is recommended, and which variable matters. The distance in the plateau grows with either
+  // variable's own, so both do.
+  const nlohmann::json record = model_json(store, {});
+  EXPECT_TRUE(record.at("trusted").get<bool>());
+  EXPECT_GT(record.at("recommended").at("success").get<double>(), 0.9);
+  for (const char* variable : {"layout.diameter", "layout.jitter"}) {
+    const nlohmann::json& index = record.at("importance").at("all").at(variable);
+    EXPECT_GT(index.at("total").get<double>(), 0.1) << variable;
+    EXPECT_GT(index.at("total").get<double>(), index.at("first").get<double>() - 0.1) << variable;
+  }
 }
 
 }  // namespace
