@@ -16,8 +16,8 @@
 namespace perfora::optimize {
 namespace {
 
-/// Points that DIRECT_L looks at for one point of a batch, over all arms, and SBPLX behind it.
-constexpr int global_looks = 300, local_looks = 80;
+/// Points that DIRECT_L looks at for one point of a batch, over all arms, and SBPLX behind it: times variables + 1.
+constexpr int global_looks = 40, local_looks = 20;
 /// Each arm is looked at this often at least.
 constexpr int fewest_looks = 30;
 /// First steps of SBPLX, as a fraction of the bounds.
@@ -264,11 +264,12 @@ class Search {
       }
       return known->second;
     };
-    const int each = std::max(fewest_looks, global_looks / static_cast<int>(stage_.tasks.size()));
+    const int dimension = store_.variables() + 1;
+    const int each = std::max(fewest_looks, global_looks * dimension / static_cast<int>(stage_.tasks.size()));
     for (std::size_t task = 0; task < stage_.tasks.size(); ++task)
       run_search(looking(task, "GN_DIRECT_L", each), [&](std::span<const double> x) { return look(task, x); });
     const auto refine = [&](std::size_t task, std::vector<double> from) {
-      SearchOptions options = looking(task, "LN_SBPLX", local_looks);
+      SearchOptions options = looking(task, "LN_SBPLX", local_looks * dimension);
       options.start = std::move(from);
       run_search(options, [&](std::span<const double> x) { return look(task, x); });
     };

@@ -23,7 +23,8 @@ void describe(io::Schema& schema, StudyKeys& keys) {
   using io::Range;
   auto section = schema.section("study", "How to search.");
   section.path("design", keys.design, "Design file the search starts from");
-  section.text("algorithm", keys.algorithm, "Derivative-free NLopt algorithm, by NLopt's name");
+  section.text("algorithm", keys.algorithm,
+               "\"model\", \"random\", \"sobol\" or a derivative-free algorithm of NLopt by its name");
   section.integer("maxeval", keys.maxeval, Range::non_negative(), "Candidates in total, over all arms");
   section.text("allocation", keys.allocation,
                "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the fraction of an arm's bounds "

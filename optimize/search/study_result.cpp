@@ -11,6 +11,7 @@
 #include "io/files.h"
 #include "io/hdf5.h"
 #include "io/text.h"
+#include "optimize/search/model_record.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_record.h"
 
@@ -186,6 +187,14 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
   return line + fmt::format(",{},{}\n", visit.detail.replicates, visit.detail.failed);
 }
 
+/// What the model says of all that was evaluated.
+json model_of(StudyRun& run) {
+  std::vector<const Candidate*> visited;
+  for (const Trace& trace : run.plan().traces)
+    for (const Visit& visit : trace.visits) visited.push_back(visit.candidate);
+  return model_json(CandidateStore(run.study(), run.book(), run.answers()), visited);
+}
+
 }  // namespace
 
 std::optional<results::Verdict> verdict_of(StudyRun& run) {
@@ -227,6 +236,7 @@ json to_json(StudyRun& run) {
   record["start_score"] = plan.start.detail.valid ? number(plan.start.score) : json(nullptr);
   record["finals"] = finals_json(plan.finals);
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
+  if (plan.finished && study.keys.algorithm == "model") record["model"] = model_of(run);
   record["performance"] = performance_json(run);
   return record;
 }

@@ -104,21 +104,20 @@ class Trial {
       if (study_.searcher->library().name == "nlopt") share = walls_allowance * candidates;
       if (share > 0) stage.tasks.push_back({static_cast<int>(k), share, arm.seed, start_of(static_cast<int>(k), arm)});
     }
-    std::vector<Trace> traces;
-    for (bool finished = false; !finished;) {
+    for (;;) {
       CandidateStore store(study_, book_, answers_);
       for (const Candidate* candidate : mapped_) store.observe(*candidate);
-      traces = study_.searcher->ask(stage, store);
-      finished = true;
+      std::vector<Trace> traces = study_.searcher->ask(stage, store);
+      bool finished = true;
       for (std::size_t k = 0; k < traces.size(); ++k) {
         finished = finished && traces[k].finished;
         give_back(traces[k], stage.tasks[k]);
-        for (const Visit& visit : traces[k].visits)
-          if (!visit.answered && runs_ < budget) evaluate(*visit.candidate, 0, replicates);
       }
-      finished = finished || runs_ >= budget;
+      if (finished || runs_ >= budget) return recommended(traces);
+      for (const Trace& trace : traces)
+        for (const Visit& visit : trace.visits)
+          if (!visit.answered && runs_ < budget) evaluate(*visit.candidate, 0, replicates);
     }
-    return recommended(traces);
   }
 
  private:

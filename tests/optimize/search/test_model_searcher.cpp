@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "optimize/search/model_record.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_model.h"
 #include "tests/optimize/search/study_support.h"
@@ -107,12 +108,12 @@ TEST_F(ModelSearcherTest, SamplesEndWhereNoPointKeepsTheWalls) {
 // Optimum of fake_evaluation(): diameter 17.5 mm, jitter 0.4 mm, in the arm of two rows; four holes there, six in the
 // other arm, which costs 0.6 in the plateau.
 TEST_F(ModelSearcherTest, ModelFindsTheOptimum) {
-  const Study learning = study("model", 24, "rows = [2, 3]"), sampling = study("sobol", 24, "rows = [2, 3]");
+  const Study learning = study("model", 20, "rows = [2, 3]"), sampling = study("sobol", 20, "rows = [2, 3]");
   CandidateBook book(learning), other(sampling);
   Answers known, unrelated;
   const std::vector<Trace> traces = carried_out(learning, book, known, stage_of(learning));
   const std::vector<Trace> sampled = carried_out(sampling, other, unrelated, stage_of(sampling));
-  EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 24U);
+  EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 20U);
   EXPECT_EQ(traces[0].reason, "maxeval reached");
   EXPECT_LT(best_of(traces), 0.005) << "within 7 % of the wished stress";
   EXPECT_LT(best_of(traces), 0.5 * best_of(sampled));
@@ -164,6 +165,16 @@ TEST_F(ModelSearcherTest, GoesOnFromAMap) {
   for (const Visit& visit : trace.visits)
     nearest = std::min(nearest, fake_distance(visit.candidate->values[0], visit.candidate->values[1]));
   EXPECT_LT(std::sqrt(nearest), 0.1);
+  // At the end: what is recommended, and which variable matters. The distance in the plateau grows with either
+  // variable's own, so both do.
+  const nlohmann::json record = model_json(store, {});
+  EXPECT_TRUE(record.at("trusted").get<bool>());
+  EXPECT_GT(record.at("recommended").at("success").get<double>(), 0.9);
+  for (const char* variable : {"layout.diameter", "layout.jitter"}) {
+    const nlohmann::json& index = record.at("importance").at("all").at(variable);
+    EXPECT_GT(index.at("total").get<double>(), 0.1) << variable;
+    EXPECT_GT(index.at("total").get<double>(), index.at("first").get<double>() - 0.1) << variable;
+  }
 }
 
 }  // namespace
