@@ -51,11 +51,20 @@ Report.glPainter = (canvas, block) => {
   };
   const setPlaces = attribute("place", 2, gl.UNSIGNED_SHORT), setRadius = attribute("radius", 1, gl.UNSIGNED_SHORT),
         setValues = attribute("value", 1, gl.UNSIGNED_BYTE);
-  setRadius(block.radius);
   gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
   for (const [what, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST], [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
     gl.texParameteri(gl.TEXTURE_2D, what, value);
   const full = 65535, places = new Uint16Array(2 * block.discs);
+  /** The discs that reach over an edge of the block: only their images show. */
+  const edgeDiscs = (view) => {
+    const [hx, , hy] = view.h, far = block.facts.radius[1] * full * view.growth, list = [];
+    const [x0, dx] = block.facts.x, [y0, dy] = block.facts.y;
+    for (let d = 0; d < block.discs; ++d) {
+      const x = x0 + dx * view.x[d], y = y0 + dy * view.y[d];
+      if (x < far || x > hx - far || y < far || y > hy - far) list.push(d);
+    }
+    return list;
+  };
   const largestPoint = gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1];
 
   const paint = (view) => {
@@ -69,8 +78,6 @@ Report.glPainter = (canvas, block) => {
     gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
-    setPlaces(places);
-    setValues(view.values);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, view.palette);
     gl.uniform2f(at("offset"), block.facts.x[0], block.facts.y[0]);
     gl.uniform2f(at("range"), block.facts.x[1] * full, block.facts.y[1] * full);
@@ -83,10 +90,22 @@ Report.glPainter = (canvas, block) => {
       gl.scissor(Math.round((view.clip.x - view.world.x) * pixels), Math.round((view.clip.y - view.world.y) * pixels),
                  Math.round(view.clip.width * pixels), Math.round(view.clip.height * pixels));
     }
-    for (const [dx, dy] of view.images) {
-      gl.uniform2f(at("shift"), dx, dy);
-      gl.drawArrays(gl.POINTS, 0, block.discs);
+    const draw = (xy, radius, values, images) => {
+      setPlaces(xy);
+      setRadius(radius);
+      setValues(values);
+      for (const [dx, dy] of images) {
+        gl.uniform2f(at("shift"), dx, dy);
+        gl.drawArrays(gl.POINTS, 0, values.length);
+      }
+    };
+    const images = view.images.filter(([dx, dy]) => dx !== 0 || dy !== 0);
+    if (images.length) {
+      const edge = Math.abs(view.h[1]) < 1e-9 * view.h[0] ? edgeDiscs(view) : Array.from(view.values.keys());
+      draw(Uint16Array.from({length: 2 * edge.length}, (unused, k) => places[2 * edge[k >> 1] + (k & 1)]),
+           Uint16Array.from(edge, (d) => block.radius[d]), Uint8Array.from(edge, (d) => view.values[d]), images);
     }
+    draw(places, block.radius, view.values, [[0, 0]]);
     return true;
   };
   return {name: "webgl", paint};

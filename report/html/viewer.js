@@ -106,7 +106,7 @@ Report.viewer = (block, {onFrame = () => {}} = {}) => {
     const placed = state.deformed ? state.frame : 0, h = facts.list[placed].h;
     const list = images(placed);
     const view = {x: block.x(placed), y: block.y(placed), values: block.fields[state.way.field](state.frame), palette: state.way.palette,
-                  images: list, world, growth: 1.28,
+                  images: list, h, world, growth: 1.28,
                   clip: list.length > 1 && Math.abs(h[1]) < 1e-9 * h[0]
                       ? {x: facts.edges.free ? world.x : 0, y: 0, width: facts.edges.free ? world.width : h[0], height: h[2]} : null};
     if (!painter.paint(view)) {
