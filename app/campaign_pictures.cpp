@@ -8,6 +8,7 @@
 #include "app/measured_curves.h"
 #include "io/error.h"
 #include "report/plot.h"
+#include "report/plot_map.h"
 #include "report/plot_study.h"
 #include "report/sweep_picture.h"
 #include "results/calibration_record.h"
@@ -41,6 +42,9 @@ void draw_campaign(const fs::path& folder, const fs::path& out, const std::strin
     if (!title.empty()) record.title = title;
     for (results::Curve& curve : measured_curves(curve_files, {})) record.measured.push_back(std::move(curve));
     report::plot_study(record, out);
+  } else if (kind == "map") {
+    if (!curve_files.empty()) refuse_curves(folder);
+    draw_map(folder, out, title);
   } else if (kind == "sweep") {
     results::SweepRecord record = results::read_sweep_record(folder);
     results::read_sweep_runs(record);
@@ -56,9 +60,15 @@ void draw_campaign(const fs::path& folder, const fs::path& out, const std::strin
     options.title = title;
     report::plot_reachable(results::read_calibration_record(folder), out, options);
   } else {
-    throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration", "",
-                         "give a file or folder that perfora wrote");
+    throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, map, sweep, ensemble or calibration",
+                         "", "give a file or folder that perfora wrote");
   }
+}
+
+void draw_map(const fs::path& folder, const fs::path& out, const std::string& title) {
+  results::MapRecord record = results::read_map_record(folder);
+  if (!title.empty()) record.title = title;
+  report::plot_map(record, out);
 }
 
 bool draw_collapse(const fs::path& folder, const fs::path& out, const std::string& title) {

@@ -20,4 +20,7 @@ void draw_campaign(const std::filesystem::path& folder, const std::filesystem::p
 bool draw_collapse(const std::filesystem::path& folder, const std::filesystem::path& out,
                    const std::string& title = "");
 
+/// Draws the map in DIR/map.json, of `perfora map` or of a study.
+void draw_map(const std::filesystem::path& folder, const std::filesystem::path& out, const std::string& title = "");
+
 }  // namespace perfora::app

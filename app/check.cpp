@@ -13,7 +13,8 @@
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration_search.h"
-#include "optimize/search/study.h"
+#include "optimize/search/study_plan.h"
+#include "optimize/search/study_run.h"
 #include "results/describe.h"
 #include "results/summary_text.h"
 
@@ -88,14 +89,42 @@ int check_design(const CheckFlags& flags) {
   return report(flags, "design", nullptr, "", design, design.validate());
 }
 
+json plan_json(const optimize::StudyPlan& plan) {
+  json stages = json::array();
+  for (const optimize::PlannedStage& one : plan.stages)
+    stages.push_back({{"stage", one.name},
+                      {"fidelity", one.fidelity},
+                      {"designs", one.designs},
+                      {"runs", one.runs},
+                      {"seconds", one.seconds()},
+                      {"measured", one.measured}});
+  return stages;
+}
+
+/// A line a stage: designs, runs, time of one processor.
+std::string plan_text(const optimize::StudyPlan& plan, int workers) {
+  std::string text =
+      fmt::format("Plan, at most{:<28}{:>8}{:>8}   {}\n", "", "designs", "runs", "time of one processor");
+  for (const optimize::PlannedStage& one : plan.stages) {
+    const std::string name = one.name + (one.fidelity.empty() ? "" : " at " + one.fidelity);
+    text += fmt::format("  {:<38} {:>8}{:>8}   {}{}\n", name, io::count(one.designs), io::count(one.runs),
+                        io::duration(one.seconds()), one.measured ? "" : ", estimated");
+  }
+  return text + line(fmt::format("time on {} processor{}, roughly", workers, workers == 1 ? "" : "s"),
+                     io::duration(plan.seconds() / workers));
+}
+
 int check_study_file(const CheckFlags& flags) {
-  const optimize::StudyEstimate study = optimize::check_study(flags.file, flags.common.overrides());
-  const double seconds = optimize::estimate_design(*study.start, flags.common.thread_count()).seconds;
+  const optimize::Study study = optimize::read_study(flags.file, flags.common.overrides());
+  const optimize::StudyPlan plan = optimize::plan_of(study);
+  const int workers = optimize::useful_workers(study, flags.workers);
+  const std::vector<std::string> wishes = results::in_words(study.target, study.start->design().measures);
+  const std::vector<std::string> constraints = in_words(study.constraints, study.start->design());
   json arms = json::array();
   std::string text = "Wished\n";
-  for (const std::string& wish : study.wishes) text += fmt::format("  {}\n", wish);
+  for (const std::string& wish : wishes) text += fmt::format("  {}\n", wish);
   text += "Every candidate\n";
-  for (const std::string& constraint : study.constraints) text += fmt::format("  {}\n", constraint);
+  for (const std::string& constraint : constraints) text += fmt::format("  {}\n", constraint);
   text += "Varied\n";
   json variables = json::object();
   for (const optimize::Variable& variable : study.variables) {
@@ -104,21 +133,21 @@ int check_study_file(const CheckFlags& flags) {
                  fmt::format("{}, start {}", io::quantities({variable.low, variable.high}, variable.dimension, " to "),
                              io::quantity(study.start->schema().get_number(variable.key), variable.dimension)));
   }
-  text += "Study\n";
-  text += line("candidates", io::count(study.candidates));
-  text += line("compressions, at most", io::count(study.simulations));
-  text += line("time, roughly (each like the start)", io::duration(seconds * static_cast<double>(study.simulations)));
+  text += "Search\n";
   for (const optimize::Arm& arm : study.arms) {
     arms.push_back({{"name", arm.name}, {"maxeval", arm.maxeval}});
     text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));
   }
-  const json object = {{"candidates", study.candidates},
-                       {"simulations", study.simulations},
-                       {"seconds", seconds * static_cast<double>(study.simulations)},
-                       {"wishes", study.wishes},
-                       {"constraints", study.constraints},
-                       {"variables", variables},
-                       {"arms", arms}};
+  text += plan_text(plan, workers);
+  json object = {
+      {"candidates", std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval)},
+      {"simulations", plan.runs()},
+      {"seconds", plan.seconds()},
+      {"wishes", wishes},
+      {"constraints", constraints},
+      {"variables", variables},
+      {"arms", arms}};
+  if (!optimize::is_plain(study.keys)) object["plan"] = plan_json(plan);
   return report(flags, "study", object, text, *study.start, study.warnings);
 }
 
@@ -194,7 +223,7 @@ void add_check(CLI::App& program, int& exit_code) {
       program.add_subcommand("check", "Say what a design, study, sweep or calibration would run, without running it");
   command->add_option("FILE", flags->file, "Design, study, sweep or calibration file (TOML)")->required();
   add_only_flag(*command, flags->only, ", and the design itself where the sweep has it as a case; for sweeps");
-  add_workers_flag(*command, flags->workers, "sweep");
+  add_workers_flag(*command, flags->workers, "study or sweep");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] {
     flags->common.apply();

@@ -12,6 +12,7 @@ void add_pack(CLI::App& program, int& exit_code);
 void add_evaluate(CLI::App& program, int& exit_code);
 void add_test(CLI::App& program, int& exit_code);
 void add_optimize(CLI::App& program, int& exit_code);
+void add_map(CLI::App& program, int& exit_code);
 void add_sweep(CLI::App& program, int& exit_code);
 void add_correlate(CLI::App& program, int& exit_code);
 void add_calibrate(CLI::App& program, int& exit_code);

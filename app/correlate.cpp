@@ -48,17 +48,37 @@ std::string with_replicates(const SweepRecord& sweep) {
   return fmt::format("{}, {} replicate{} a case", sweep.name, count, most == 1 ? "" : "s");
 }
 
+/// What a run costs in either; empty where one has no journal.
+std::string cost_text(const SweepRecord& sweep, const SweepRecord& reference) {
+  const double cheap = optimize::seconds_of_a_run(sweep.folder);
+  const double expensive = optimize::seconds_of_a_run(reference.folder);
+  if (!(cheap > 0.0) || !(expensive > 0.0)) return {};
+  return fmt::format("  a run took {} here and {} there: {} times as long\n", io::duration(cheap),
+                     io::duration(expensive), io::number(expensive / cheap));
+}
+
 std::string table_text(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
   std::string text;
+  bool enough = false;
   for (const Comparison& one : comparisons) {
     const std::string ratio = one.sweep.name + " / " + reference.name;
     text += fmt::format("{}, against\n{}\n  {:<28}{:<30}{:>6}   {}\n", with_replicates(one.sweep),
                         with_replicates(reference), "result", "rank correlation (95 %)", "cases", "median of " + ratio);
-    for (const ComparedMeasure& measure : one.measures)
-      text += fmt::format("  {:<28}{:<30}{:>6}   {}\n", measure.measure, interval_text(measure.correlation),
-                          measure.correlation.count, io::number(measure.median_ratio));
+    for (const ComparedMeasure& measure : one.measures) {
+      const optimize::Trust trust = optimize::trust_in(measure.correlation);
+      const bool told = trust != optimize::Trust::too_few;
+      enough = enough || told;
+      text += fmt::format("  {:<28}{:<30}{:>6}   {}{}\n", measure.measure, interval_text(measure.correlation),
+                          measure.correlation.count, io::number(measure.median_ratio),
+                          told ? std::string(", ") + optimize::trust_name(trust) : std::string());
+    }
+    text += cost_text(one.sweep, reference);
   }
-  return text + "Rank correlation is Spearman's; its interval is that of drawing other cases.\n";
+  text += "Rank correlation is Spearman's; its interval is that of drawing other cases.\n";
+  if (enough)
+    text += fmt::format("A result is trusted where it is {} or more on {} cases or more.\n", optimize::trusted_from,
+                        optimize::fewest_cases);
+  return text;
 }
 
 report::CorrelationPicture picture_of(const SweepRecord& reference, const std::vector<Comparison>& comparisons) {
@@ -121,8 +141,11 @@ void add_correlate(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<CorrelateFlags>();
   CLI::App* command = program.add_subcommand(
       "correlate", "Say whether cheap sweeps rank the cases that they share with an expensive one as that one does");
-  command->add_option("REFERENCE", flags->reference, "Folder of the sweep to trust (the expensive one)")->required();
-  command->add_option("SWEEPS", flags->sweeps, "Folders of the sweeps compared with it; cases meet by their labels")
+  command->add_option("REFERENCE", flags->reference, "Folder of the sweep or map to trust (the expensive one)")
+      ->required();
+  command
+      ->add_option("SWEEPS", flags->sweeps,
+                   "Folders of the sweeps or maps compared with it; cases meet by their labels")
       ->required();
   command
       ->add_option("--measures", flags->measures,

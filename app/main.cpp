@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   app::add_evaluate(program, exit_code);
   app::add_test(program, exit_code);
   app::add_calibrate(program, exit_code);
+  app::add_map(program, exit_code);
   app::add_optimize(program, exit_code);
   app::add_sweep(program, exit_code);
   app::add_correlate(program, exit_code);

@@ -10,6 +10,7 @@
 #include "app/reports.h"
 #include "app/workers.h"
 #include "io/text.h"
+#include "optimize/search/map_result.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
@@ -23,7 +24,8 @@ namespace fs = std::filesystem;
 
 struct OptimizeFlags {
   CommonFlags common;
-  std::string study, output;
+  std::string study, output, map;
+  double wall_time = 0.0;
   bool resume = false;
   bool no_run_file = false;
   WorkerFlags workers;
@@ -40,6 +42,21 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.make_executor = worker_executor(flags.workers, study.keys.execution,
                                           optimize::useful_workers(study, flags.workers.workers), flags.common);
   return options;
+}
+
+std::vector<std::string> overrides(const OptimizeFlags& flags) {
+  std::vector<std::string> all = flags.common.overrides();
+  if (!flags.map.empty()) all.push_back("map.from=" + fs::absolute(flags.map).string());
+  return all;
+}
+
+/// What evaluations that are there already say of the wishes, before anything is run.
+void say_what_is_known(optimize::StudyRun& run) {
+  static_cast<void>(run.pending(run.answers()));
+  const auto map = run.map();
+  if (!map || map->designs.empty()) return;
+  for (const std::string& sentence : results::out_of_reach(*map)) io::log_warning(sentence);
+  if (const std::string best = optimize::best_of_map_text(run.study(), run.plan()); !best.empty()) io::log_info(best);
 }
 
 void announce(const optimize::Study& study) {
@@ -69,6 +86,7 @@ results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run)
 void draw(const optimize::StudyRun& run) {
   const fs::path& folder = run.options().folder;
   draw_campaign(folder, folder / "study.png");
+  if (fs::exists(folder / "map.json")) draw_map(folder, folder / "map.png");
   if (!fs::exists(folder / "best.h5")) return;
   report::PlotOptions options;
   options.title = "best design of " + run.study().file.stem().string();
@@ -79,9 +97,10 @@ void draw(const optimize::StudyRun& run) {
 
 int optimize_study(const OptimizeFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
-  optimize::Study study = optimize::read_study(flags.study, flags.common.overrides());
+  optimize::Study study = optimize::read_study(flags.study, overrides(flags));
   const optimize::WorkOptions options = run_options(flags, study);
-  optimize::StudyRun run(std::move(study), options);
+  optimize::StudyRun run(std::move(study), options, flags.wall_time);
+  say_what_is_known(run);
   announce(run.study());
   run.run();
   auto status = run.status();
@@ -107,10 +126,24 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -result)")
       ->type_name("DIR");
   command->add_flag("--resume", flags->resume, "Continue a study that was stopped or killed");
+  command
+      ->add_option("--map", flags->map,
+                   "Take the evaluations of this folder, of `perfora map` or of a study of the same space")
+      ->type_name("DIR");
+  command
+      ->add_option("--wall-time", flags->wall_time,
+                   "End the search early, so that race and verification are done after this many seconds")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   add_worker_flags(*command, flags->workers, "study");
   command->add_flag("--no-run-file", flags->no_run_file,
                     "Do not run the best design once more for best.h5 and best.png");
   add_common_flags(*command, flags->common);
+  command->footer(
+      "Examples:\n"
+      "  perfora optimize study.toml -o result\n"
+      "  perfora optimize study.toml -o result --resume     after a stop, or with more candidates or another target\n"
+      "  perfora optimize study.toml --map map              beginning with the designs of `perfora map`");
   command->callback([flags, &exit_code] {
     flags->common.apply();
     exit_code = optimize_study(*flags);

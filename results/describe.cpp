@@ -169,7 +169,7 @@ nlohmann::json parse_summary(const std::string& text, const std::filesystem::pat
 
 std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
-    for (const char* name : {"result.json", "ensemble.json"})
+    for (const char* name : {"result.json", "ensemble.json", "map.json"})
       if (std::filesystem::exists(path / name)) return parse_summary(io::read_file(path / name), path / name);
     return std::nullopt;
   }

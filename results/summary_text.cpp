@@ -9,6 +9,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
+#include "results/measure_table.h"
 #include "results/summary_labels.h"
 #include "results/summary_parts.h"
 #include "results/summary_tables.h"
@@ -137,12 +138,61 @@ std::string finals_text(const json& finals) {
   return text + line_text("", is_significant ? "a gain beyond its interval" : "it may be chance");
 }
 
+/// A sentence a line, below a title; nothing where there is none.
+std::string sentences_text(std::string_view title, const json& sentences) {
+  std::string text;
+  for (const json& one : sentences)
+    if (one.is_string()) text += "  " + one.get<std::string>() + "\n";
+  return text.empty() ? text : std::string(title) + "\n" + text;
+}
+
+/// How far the designs of a map reached, a line a measure.
+std::string map_text(const json& object) {
+  const json& designs = required_list(object, "designs");
+  std::string text = sentences_text("Wishes", list_in(object, "out_of_reach"));
+  const double replicates = number_in(object, "replicates");
+  text += fmt::format("Map: {} designs, {} replicate{} of each\n", designs.size(), io::count(replicates),
+                      replicates == 1.0 ? "" : "s");
+  for (const char* key : {"plateau_stress", "cap_ratio", "undulation", "densification_strain", "first_peak_stress"}) {
+    const Measure& measure = *measure_called(key);
+    double low = not_reached, high = not_reached;
+    int reached = 0;
+    for (const json& one : designs) {
+      const double mean = number_in(object_in(object_in(one, "results"), key), "mean");
+      if (!std::isfinite(mean)) continue;
+      low = std::fmin(low, mean);
+      high = std::fmax(high, mean);
+      ++reached;
+    }
+    text += line_text(
+        measure.label,
+        reached == 0 ? std::string("not reached by any design")
+                     : fmt::format("{}, {} designs", io::quantities({low, high}, measure.dimension, " to "), reached));
+  }
+  return text;
+}
+
+/// The designs that were verified, the recommended one first to be seen.
+std::string verified_text(const json& designs) {
+  std::string text;
+  for (const json& one : designs)
+    text += line_text(text_in(object_in(one, "verdict"), "outcome", "verified"),
+                      text_in(one, "label") + (one.value("recommended", false) ? " (recommended)" : ""));
+  return text.empty() ? text : "Verified designs\n" + text;
+}
+
 std::string optimize_text(const json& object, const KeyDimension& key_dimension) {
-  std::string text = lines_text("Search", object, search_labels());
+  const json& map = object_in(object, "map");
+  std::string text = sentences_text("Map", list_in(map, "out_of_reach"));
+  text += lines_text("Search", object, search_labels());
   const json& best = object_in(object, "best");
   if (!best.empty()) text += "Best design\n";
   for (const auto& [key, value] : best.items()) text += line_text(key, key_value_text(key, value, key_dimension));
   if (!best.empty() && text_in(object, "status") == "completed") text += finals_text(object_in(object, "finals"));
+  text += verified_text(list_in(object, "verified"));
+  if (const std::string blocks = text_in(object_in(object, "single_blocks"), "text"); !blocks.empty())
+    text += "Single blocks\n  " + blocks + "\n";
+  text += sentences_text("What more would buy", list_in(object, "what_more_would_buy"));
   return text + performance_text(object);
 }
 
@@ -183,6 +233,7 @@ std::string summary_text(const json& object, const KeyDimension& key_dimension, 
       {"perfora.ensemble/1", [](const json& o) { return statistics_table(required_object(o, "statistics")); }},
       {"perfora.sweep/1", [](const json& o) { return performance_text(o) + sweep_table(o); }},
       {"perfora.optimize/1", [&](const json& o) { return optimize_text(o, key_dimension); }},
+      {"perfora.map/1", map_text},
       {"perfora.calibrate/1", [&](const json& o) { return calibrate_text(o, key_dimension); }},
       {"perfora.test/1", material_text},
       {"perfora.check/1", [](const json& o) { return estimate_text(o); }}};

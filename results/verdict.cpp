@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/text.h"
+#include "results/assurance.h"
 #include "results/json.h"
 #include "results/statistic.h"
 
@@ -19,20 +20,6 @@ using nlohmann::json;
 constexpr double honest_impact_ratio = 0.1;
 /// From here on a miss is told as a factor, below it in percent.
 constexpr double told_as_factor = 2.0;
-
-std::string_view key_of(const Wish& wish) {
-  return wish.measure->key;
-}
-
-/// The measure of a replicate. Where the stress did not leave the plateau before the end of the run, the plateau is at
-/// least as long as the run.
-double value_for(const Wish& wish, const Evaluation& evaluation) {
-  const double value = value_of(*wish.measure, evaluation);
-  const Summary& summary = evaluation.summary;
-  if (std::isnan(value) && key_of(wish) == "densification_strain" && std::isfinite(summary.plateau_stress))
-    return summary.final_strain;
-  return value;
-}
 
 bool within(const Wish& wish, const Interval& interval) {
   return wish.low <= interval.low && interval.high <= wish.high;
@@ -92,7 +79,7 @@ WishVerdict judge(const Wish& wish, std::span<const Evaluation* const> replicate
   std::vector<double> values;
   for (const Evaluation* evaluation : replicates) {
     if (evaluation->status != RunStatus::completed) continue;
-    const double value = value_for(wish, *evaluation);
+    const double value = wished_value(wish, *evaluation);
     if (std::isnan(value))
       ++one.missing;
     else

@@ -75,6 +75,12 @@ class Campaign {
   /// Takes the folder: its lock first, then its journal. Throws io::InputError when the folder holds such work and
   /// neither `resume` nor `force` is set, when it holds other work, is in use, and what check_same() throws.
   void open(WorkOptions options);
+  /// Appends an event of its own to the journal; from pending() on: before what that names is asked.
+  void note(const nlohmann::json& event) { queue_->note(event); }
+  /// Takes an evaluation of another folder, as that one's journal has it, and its history where there is one.
+  void take_over(nlohmann::json event, const std::filesystem::path& folder) {
+    queue_->take_over(std::move(event), folder);
+  }
   std::string time_left() const { return queue_->time_left(remaining()); }
 
  private:

@@ -94,8 +94,24 @@ void EvaluationQueue::note(const json& event) {
   journal_->append(event.dump());
 }
 
+void EvaluationQueue::take_over(json event, const std::filesystem::path& folder) {
+  DesignTexts designs;
+  const std::filesystem::path there = folder / history_file(event.at("key").get<std::string>());
+  const std::string key = key_of(event, designs);
+  const std::filesystem::path here = options_.folder / history_file(key);
+  if (std::filesystem::exists(there) && !std::filesystem::exists(here)) {
+    io::make_folders(options_.folder / histories_folder);
+    io::write_file(here, io::read_file(there));
+  }
+  event["key"] = key;
+  event[taken_over_name] = true;
+  note(event);
+  take_evaluation(key, event);
+}
+
 void EvaluationQueue::take_evaluation(const std::string& key, const json& record) {
   answers_.add(key, results::evaluation_from_json(record.at("evaluation")));
+  if (record.value(taken_over_name, false)) return;
   simulated_seconds_ += record.value("seconds", 0.0);
   ++timed_;
   retries_ += record.value("attempts", 1) - 1;
@@ -177,7 +193,8 @@ void EvaluationQueue::clean_folder() const {
   const fs::path runs = options_.folder / runs_folder, histories = options_.folder / histories_folder;
   std::vector<fs::path> left;  // by a kill after the journal's line, or of what is no longer asked
   for (const auto& entry : fs::directory_iterator(runs, ignored))
-    if ((only_own_runs_ && !options_.keep_run_files) || entry.path().extension() == ".part") left.push_back(entry.path());
+    if ((only_own_runs_ && !options_.keep_run_files) || entry.path().extension() == ".part")
+      left.push_back(entry.path());
   for (const auto& entry : fs::directory_iterator(histories, ignored)) {
     const auto [first, last] = answers_.of(entry.path().stem().string());
     if (first == last) left.push_back(entry.path());

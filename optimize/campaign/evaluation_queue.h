@@ -26,6 +26,9 @@ class Journal;
 
 namespace perfora::optimize {
 
+/// Says in an evaluation's event that it came from another folder.
+inline constexpr const char* taken_over_name = "taken_over";
+
 /// Says in the events that journals begin a session with whether run files of finished simulations stay.
 inline constexpr const char* run_files_kept = "run_files_kept";
 
@@ -92,6 +95,10 @@ class EvaluationQueue {
 
   /// Appends an event that is no evaluation.
   void note(const nlohmann::json& event);
+
+  /// Takes an evaluation from the journal of another folder, with its history where that folder keeps one: written down
+  /// and known as if it had been evaluated here, but no time counts.
+  void take_over(nlohmann::json event, const std::filesystem::path& folder);
 
   const Answers& answers() const { return answers_; }
   const WorkOptions& options() const { return options_; }

@@ -12,6 +12,8 @@
 #include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/evaluate/evaluation.h"
+#include "results/campaign_folder.h"
+#include "results/map_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -42,12 +44,42 @@ CaseMean result_of(const results::SweepCase& one, const std::string& measure) {
 }  // namespace
 
 SweepRecord read_completed_sweep(const fs::path& path) {
-  SweepRecord record = results::read_sweep_record(path);
+  const bool map = fs::is_directory(path) && fs::exists(path / "map.json");
+  SweepRecord record = map ? results::as_sweep(results::read_map_record(path), path) : results::read_sweep_record(path);
   std::erase_if(record.cases, [](const results::SweepCase& one) { return one.completed < 1; });
   if (record.cases.empty())
-    throw io::InputError({(record.folder / "result.json").string(), 0, ""}, "no case of this sweep has completed yet",
-                         "", "give the folder of a `perfora sweep`");
+    throw io::InputError({(record.folder / (map ? "map.json" : "result.json")).string(), 0, ""},
+                         "no case of this sweep has completed yet", "",
+                         "give the folder of a `perfora sweep` or a `perfora map`");
   return record;
+}
+
+Trust trust_in(const RankCorrelation& correlation) {
+  if (correlation.count < fewest_cases) return Trust::too_few;
+  return correlation.coefficient >= trusted_from ? Trust::trusted : Trust::not_trusted;
+}
+
+const char* trust_name(Trust trust) {
+  switch (trust) {
+    case Trust::trusted:
+      return "trusted";
+    case Trust::not_trusted:
+      return "not trusted";
+    case Trust::too_few:
+      break;
+  }
+  return "too few cases";
+}
+
+double seconds_of_a_run(const fs::path& folder) {
+  double sum = 0.0;
+  int runs = 0;
+  for (const json& event : results::journal_events(folder)) {
+    if (event.at("event") != "evaluation" || event.value("taken_over", false)) continue;
+    sum += event.value("seconds", 0.0);
+    ++runs;
+  }
+  return runs > 0 ? sum / runs : 0.0;
 }
 
 std::vector<std::string> differences(const SweepRecord& reference, const SweepRecord& other) {
@@ -121,8 +153,12 @@ json to_json(const SweepRecord& other, const std::vector<ComparedMeasure>& compa
                              {"pairs", one.correlation.count},
                              {"median_ratio", number(one.median_ratio)},
                              {"cases", cases}};
+    if (const Trust trust = trust_in(one.correlation); trust != Trust::too_few)
+      measures[one.measure]["trust"] = trust_name(trust);
   }
-  return {{"sweep", other.name}, {"measures", measures}};
+  json record = {{"sweep", other.name}, {"measures", measures}};
+  if (const double seconds = seconds_of_a_run(other.folder); seconds > 0.0) record["seconds_of_a_run"] = seconds;
+  return record;
 }
 
 }  // namespace perfora::optimize

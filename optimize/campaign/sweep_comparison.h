@@ -15,9 +15,24 @@ namespace perfora::optimize {
 using results::CaseMean;
 using results::SweepRecord;
 
-/// Reads a sweep's folder or result.json, the cases alone that have a completed replicate. Throws io::InputError for
-/// anything else and where no case has completed.
+/// Reads a sweep's folder or result.json, or the folder of a map, whose designs are the cases; the cases alone that
+/// have a completed replicate. Throws io::InputError for anything else and where no case has completed.
 SweepRecord read_completed_sweep(const std::filesystem::path& path);
+
+/// What a cheap sweep may stand for.
+enum class Trust {
+  trusted,      ///< it orders the cases as the other does: Spearman's coefficient is 0.8 or more, on 20 cases or more
+  not_trusted,  ///< it does not
+  too_few       ///< fewer cases: nothing can be said
+};
+inline constexpr double trusted_from = 0.8;
+inline constexpr int fewest_cases = 20;
+Trust trust_in(const RankCorrelation& correlation);
+/// "trusted", "not trusted", "too few cases".
+const char* trust_name(Trust trust);
+
+/// Mean wall time of a run, s, from the journal of a folder; 0 where there is none.
+double seconds_of_a_run(const std::filesystem::path& folder);
 
 /// One result of the cases that two sweeps share.
 struct ComparedMeasure {

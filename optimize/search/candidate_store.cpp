@@ -15,13 +15,17 @@ const Candidate& CandidateStore::at(int arm, std::span<const double> x) const {
 }
 
 Visit CandidateStore::visit(const Candidate& candidate) const {
+  return visit(candidate, study_.keys.replicates, 0);
+}
+
+Visit CandidateStore::visit(const Candidate& candidate, int replicates, std::size_t fidelity) const {
   Visit visit{&candidate, false, 0.0, {}};
   if (candidate.violation > 0.0) {
     visit.answered = true;
     visit.score = violation_score(candidate.violation);
     return visit;
   }
-  const auto known = evaluations(candidate, 0, study_.keys.replicates);
+  const auto known = evaluations(candidate, 0, replicates, fidelity);
   if (std::find(known.begin(), known.end(), nullptr) != known.end()) return visit;
   visit.answered = true;
   visit.detail = score_of(study_.target, known);
@@ -29,10 +33,12 @@ Visit CandidateStore::visit(const Candidate& candidate) const {
   return visit;
 }
 
-std::vector<const Evaluation*> CandidateStore::evaluations(const Candidate& candidate, int first, int count) const {
+std::vector<const Evaluation*> CandidateStore::evaluations(const Candidate& candidate, int first, int count,
+                                                           std::size_t fidelity) const {
   std::vector<const Evaluation*> known;
   for (int replicate = first; replicate < first + count; ++replicate)
-    known.push_back(answer_for(candidate.request(replicate), book_.key(candidate, replicate), answers_));
+    known.push_back(
+        answer_for(candidate.request(replicate, fidelity), book_.key(candidate, replicate, fidelity), answers_));
   return known;
 }
 

@@ -45,8 +45,11 @@ class CandidateStore {
   /// A candidate with its score on the replicates of the search: answered at once where it breaks a constraint,
   /// otherwise when all its evaluations are known.
   Visit visit(const Candidate& candidate) const;
+  /// The same on the first `replicates` at one fidelity.
+  Visit visit(const Candidate& candidate, int replicates, std::size_t fidelity) const;
   /// Evaluations of a candidate for replicates [first, first + count), in order; nullptr for those not known.
-  std::vector<const Evaluation*> evaluations(const Candidate& candidate, int first, int count) const;
+  std::vector<const Evaluation*> evaluations(const Candidate& candidate, int first, int count,
+                                             std::size_t fidelity = 0) const;
 
   /// Adds a design that a search is told of beside those it visits: the start, the designs of a map. Once is enough.
   void observe(const Candidate& candidate) { told_.insert(&candidate); }

@@ -13,7 +13,7 @@ namespace perfora::optimize {
 namespace {
 
 /// An arm in which so many points a wanted one break the constraints is given up.
-constexpr int most_tries = 200;
+constexpr int tries_a_point = 200;
 
 Trace sample(const std::string& algorithm, const SearchTask& task, const CandidateStore& store) {
   Trace trace;
@@ -21,7 +21,7 @@ Trace sample(const std::string& algorithm, const SearchTask& task, const Candida
   trace.finished = true;
   std::set<const Candidate*> taken;
   Points points;
-  for (int tries = 0; static_cast<int>(taken.size()) < task.maxeval && tries < most_tries * task.maxeval; ++tries) {
+  for (int tries = 0; static_cast<int>(taken.size()) < task.maxeval && tries < tries_a_point * task.maxeval; ++tries) {
     const auto at = static_cast<std::size_t>(tries);
     if (at == points.size())
       points = sample_points(algorithm, std::max(task.maxeval, 2 * tries), store.variables(), task.seed);

@@ -13,55 +13,24 @@
 #include "optimize/campaign/table_file.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_arms.h"
+#include "optimize/search/study_fidelities.h"
+#include "optimize/search/study_plan.h"
 #include "results/interval.h"
 
 namespace perfora::optimize {
 namespace {
 
-void describe(io::Schema& schema, StudyKeys& keys) {
-  using io::Dimension;
-  using io::Range;
-  auto section = schema.section("study", "How to search.");
-  section.path("design", keys.design, "Design file the search starts from");
-  section.text("algorithm", keys.algorithm,
-               "\"model\", \"random\", \"sobol\" or a derivative-free algorithm of NLopt by its name");
-  section.integer("maxeval", keys.maxeval, Range::non_negative(), "Candidates in total, over all arms");
-  section.text("allocation", keys.allocation,
-               "How maxeval is shared by the arms: \"equal\", \"proportional\" (to the fraction of an arm's bounds "
-               "that keeps the "
-               "constraints) or a list of numbers");
-  section.integer("replicates", keys.replicates, Range::at_least(1),
-                  "Simulations a candidate, each with seeds of its own");
-  section.integer("final_replicates", keys.final_replicates, Range::non_negative(),
-                  "Fresh seeds on which the best and the start design are run again at the end");
-  section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true},
-               "Strain to run to; 0: as the design says");
-  section.integer("starts", keys.starts, Range::at_least(1), "Arms that differ only in where a local algorithm begins");
-  section.real("initial_step", keys.initial_step, Dimension::ratio, Range{0.0, 1.0, true, false},
-               "First step of a local algorithm as a fraction of the bounds");
-  section.integer("population", keys.population, Range::non_negative(),
-                  "Population of CRS2, ISRES, ESCH; 0: NLopt's choice");
-  section.real("xtol", keys.xtol, Dimension::ratio, Range{0.0, 1.0, false, true},
-               "Stop when steps are smaller; fraction of the bounds");
-  section.real("ftol", keys.ftol, Dimension::none, Range::non_negative(), "Stop when the score changes by less");
-  section.real("stop_score", keys.stop_score, Dimension::none, Range::non_negative(),
-               "An arm ends at a score as low as this; 0: never");
-  section.text("refine", keys.refine, "Local algorithm of a second stage from the best candidate; empty: none");
-  section.integer("refine_maxeval", keys.refine_maxeval, Range::non_negative(), "Candidates of the second stage");
-  section.real("refine_step", keys.refine_step, Dimension::ratio, Range{0.0, 1.0, true, false},
-               "First step of the second stage as a fraction of the bounds");
-  describe(section, keys.execution);
-}
-
 /// Everything that is needed while a study file is read.
 struct Reader {
   std::filesystem::path path;
   const Searchers& searchers;
+  StudyUse use;
   Study study;
   io::Schema schema;
   std::optional<TableFile> tables;
 
-  Reader(const std::filesystem::path& file, const Searchers& known) : path(file), searchers(known) {
+  Reader(const std::filesystem::path& file, const Searchers& known, StudyUse used)
+      : path(file), searchers(known), use(used) {
     describe(schema, study.keys);
     describe(schema, study.target);
     describe(schema, study.constraints);
@@ -87,18 +56,25 @@ struct Reader {
   }
 
   void read(const std::vector<std::string>& overrides) {
-    const TableFileForm form{{"study", "target", "constraints"}, {"variables", "arms"}, flatten_allocation};
+    const TableFileForm form{{"study", "target", "constraints", "map", "race", "verify"},
+                             {"variables", "arms", "fidelity"},
+                             flatten_allocation};
     tables.emplace(path, form, schema, overrides);
     auto start = tables->start(study.keys.design);
     check_numbers(*start);
     study.warnings = start->validate();
     study.start = start;
+    set_fidelities(study, tables->entries(), start->design().solver.loading.until);
   }
 
   void check_numbers(DesignFile& start) {
-    if (study.keys.maxeval < 1)
-      throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
-                           "add maxeval = 24 under [study]; most algorithms never stop by themselves");
+    if (study.keys.budget > 0.0 && study.keys.maxeval > 0)
+      throw io::InputError(origin("study.maxeval"), "a budget is given, too, which says how many candidates there are",
+                           "study.maxeval or study.budget", "leave one of them out");
+    if (use == StudyUse::search && study.keys.maxeval < 1 && !(study.keys.budget > 0.0))
+      throw io::InputError(
+          origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
+          "add maxeval = 24 under [study], or budget = \"10 h\"; most algorithms never stop by themselves");
     refuse_skip(study.keys.execution, origin("study.on_trouble"));
     set_target(start);
     set_window(start);
@@ -115,7 +91,7 @@ struct Reader {
       if (key.section.starts_with("target") && schema.origin(key.full_name()).file == "default")
         schema.set(key.full_name(), start.schema().at(key.full_name()).get(), {});
     start.design().target = study.target;
-    if (!results::is_given(study.target))
+    if (use == StudyUse::search && !results::is_given(study.target))
       throw io::InputError(origin("target.plateau_stress"), "nothing is wished",
                            "a plateau stress, a curve, limits or weights under [target]",
                            "add plateau_stress = \"0.2 MPa\" under [target]");
@@ -126,7 +102,6 @@ struct Reader {
     results::validate(study.target, design.measures, schema);
     design.measures = results::with_window_of(study.target, design.measures);
     if (study.keys.until > 0.0) design.solver.loading.until = study.keys.until;
-    study.fidelities = {{"", changes_without_output(), design.solver.loading.until}};
     const auto refuse_beyond = [&](double strain, const char* what, const std::string& key) {
       if (design.solver.loading.until >= strain) return;
       throw io::InputError(
@@ -187,6 +162,21 @@ struct Reader {
           variable.key, io::quantity(value, variable.dimension),
           io::quantities({variable.low, variable.high}, variable.dimension, " to ")));
     }
+  }
+
+  bool is_default(const std::string& key) const { return schema.origin(key).file == "default"; }
+
+  /// What the arms get, once it is known which there are.
+  void share_out_candidates() {
+    StudyKeys& keys = study.keys;
+    if (keys.map.designs < 1 && use == StudyUse::map)
+      throw io::InputError(origin("map.designs"), "no number of designs is given", "a whole number >= 1",
+                           "add designs = 96 under [map], or give --designs 96");
+    keys.race.keep = std::min(keys.race.keep, std::max(1, keys.race.finalists));
+    if (use == StudyUse::map) return;
+    if (keys.budget > 0.0)
+      spend_budget(study, {is_default("map.designs"), is_default("race.finalists")}, origin("study.budget"));
+    allocate(study, origin("study.allocation"));
   }
 
   void warn() {
@@ -252,10 +242,11 @@ std::map<std::string, std::string> Study::resolved() const {
   describe(schema, aim);
   describe(schema, limits);
   for (const io::Key& key : schema.keys())
-    if (key.full_name() != "study.design" && !(key.section == "study" && is_execution_key(key.name)))
+    if (key.type != io::KeyType::path && !(key.section == "study" && is_execution_key(key.name)))
       all[key.full_name()] = io::value_text(key.get());
   for (const Variable& variable : variables)
     all["variables." + variable.key] = fmt::format("[{:.17g}, {:.17g}]", variable.low, variable.high);
+  all.insert(ladder.begin(), ladder.end());
   std::string names;
   for (const Arm& arm : arms) names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", arm.name, arm.maxeval);
   all["arms"] = names;
@@ -283,21 +274,23 @@ std::set<std::string> Study::at_default() const {
   return names;
 }
 
-Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_study(path, overrides, built_in_searchers());
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides, StudyUse use) {
+  return read_study(path, overrides, built_in_searchers(), use);
 }
 
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                 const Searchers& searchers) {
-  Reader reader(path, searchers);
+                 const Searchers& searchers, StudyUse use) {
+  Reader reader(path, searchers, use);
   reader.read(overrides);
   ArmEntries entries;
   for (const TableEntry& entry : reader.tables->entries())
-    (entry.table == "arms" ? entries.arms : entries.variables).push_back({entry.key, entry.value});
+    if (entry.table != "fidelity")
+      (entry.table == "arms" ? entries.arms : entries.variables).push_back({entry.key, entry.value});
   make_variables(reader.study, entries);
   reader.check_dimension();
-  make_arms(reader.study, entries, reader.origin("study.allocation"));
-  reader.warn();
+  make_arms(reader.study, entries);
+  reader.share_out_candidates();
+  if (use == StudyUse::search) reader.warn();
   return std::move(reader.study);
 }
 
@@ -310,21 +303,6 @@ std::string study_reference() {
   describe(schema, target);
   describe(schema, constraints);
   return schema.reference();
-}
-
-StudyEstimate check_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const Study study = read_study(path, overrides);
-  StudyEstimate estimate;
-  estimate.arms = study.arms;
-  estimate.variables = study.variables;
-  estimate.wishes = results::in_words(study.target, study.start->design().measures);
-  estimate.constraints = in_words(study.constraints, study.start->design());
-  estimate.candidates = std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval);
-  estimate.simulations =
-      (estimate.candidates + 1) * study.keys.replicates + 2 * std::int64_t{study.keys.final_replicates};
-  estimate.warnings = study.warnings;
-  estimate.start = study.start;
-  return estimate;
 }
 
 }  // namespace perfora::optimize

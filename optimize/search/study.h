@@ -19,6 +19,27 @@ namespace perfora::optimize {
 
 class Searcher;
 
+/// [map]: designs spread over all arms, evaluated before the search.
+struct MapKeys {
+  int designs = 0;       ///< that keep the constraints, in all; 0: none
+  int replicates = 2;    ///< of each, with the seeds of the first replicates of the search
+  std::string fidelity;  ///< name in [fidelity.NAME]; "": what candidates are scored at
+  std::filesystem::path
+      from;  ///< folder of a map or a study of the same space whose evaluations are taken; empty: none
+};
+
+/// [race]: the best designs once more on further seeds, the worse half left out after each round.
+struct RaceKeys {
+  int finalists = 0;   ///< designs that enter; 0: no race, the best of the search goes on alone
+  int keep = 4;        ///< designs that are left, and verified
+  int replicates = 2;  ///< further seeds a round
+};
+
+/// [verify]
+struct VerifyKeys {
+  std::string fidelity;  ///< name in [fidelity.NAME]; "": the design as it stands
+};
+
 /// [study]
 struct StudyKeys {
   std::filesystem::path design;           ///< design file the search starts from; relative to the study file
@@ -38,7 +59,13 @@ struct StudyKeys {
   std::string refine;          ///< local algorithm of a second stage that begins at the best candidate; "": none
   int refine_maxeval = 0;      ///< candidates of the second stage, beside maxeval
   double refine_step = 0.05;   ///< its initial step, as a fraction of the bounds
-  ExecutionKeys execution;     ///< the result does not depend on it
+  int batch = 4;               ///< candidates that a searcher which asks in batches asks together
+  std::string fidelity;  ///< that candidates are scored at: a name in [fidelity.NAME]; "": the design as it stands
+  double budget = 0.0;   ///< s, time of one processor; instead of maxeval; 0: none
+  MapKeys map;
+  RaceKeys race;
+  VerifyKeys verify;
+  ExecutionKeys execution;  ///< the result does not depend on it
 };
 
 /// One continuous variable: a numeric key of the design with its bounds (SI).
@@ -54,6 +81,7 @@ struct Arm {
   std::vector<DesignChange> choices;  ///< fixed, such as layout.rows = 3
   std::vector<double> start;          ///< first point of a local algorithm, each coordinate in [0, 1]
   int maxeval = 0;
+  double fraction = 0.0;  ///< of its bounds that keeps the constraints, as some points spread over them tell
   std::uint32_t seed =
       1;  ///< of its search; from the search seed and the arm's name, so that arms do not change each other
 };
@@ -69,7 +97,11 @@ struct Study {
   std::shared_ptr<const Searcher> searcher;  ///< has keys.algorithm
   std::shared_ptr<const Searcher> refiner;   ///< has keys.refine; nullptr without a second stage
   std::shared_ptr<const DesignFile> start;   ///< the design it starts from, window and strain of the study set
-  std::vector<Fidelity> fidelities;  ///< what candidates can be evaluated at; the first is what they are scored on
+  /// What candidates can be evaluated at; the first is what they are scored on. Only those that are used.
+  std::vector<Fidelity> fidelities;
+  std::size_t map_fidelity = 0, verify_fidelity = 0;  ///< places among them
+  std::vector<double> costs;                          ///< s, time of a run on one processor at each; 0: not measured
+  std::map<std::string, std::string> ladder;          ///< "fidelity.NAME.KEY" and its value, of all that the file names
   std::vector<std::string> warnings;
 
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",
@@ -88,27 +120,21 @@ struct Study {
   double until() const { return start->design().solver.loading.until; }
 };
 
-/// Reads and checks a study file and the design it names. `overrides` are "section.key=value" texts; those of [study],
-/// [target] and [constraints] go to the study, all others to the design. Throws io::InputError.
-Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// What a study file is read for. A map needs neither a wish nor a number of candidates.
+enum class StudyUse { search, map };
+
+/// Reads and checks a study file and the design it names. `overrides` are "section.key=value" texts; those of the
+/// study's sections go to the study, all others to the design. Throws io::InputError.
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+                 StudyUse use = StudyUse::search);
 /// The same with these searchers behind study.algorithm and study.refine.
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                 const std::vector<std::shared_ptr<const Searcher>>& searchers);
+                 const std::vector<std::shared_ptr<const Searcher>>& searchers, StudyUse use = StudyUse::search);
 
 /// Keys of a study file in one printed reference (Markdown).
 std::string study_reference();
 
-/// What a study would run, for `perfora check`.
-struct StudyEstimate {
-  std::vector<Arm> arms;
-  std::vector<std::string> wishes;  ///< results::in_words()
-  std::vector<Variable> variables;
-  std::vector<std::string> constraints;  ///< a line each
-  std::int64_t candidates = 0;           ///< maxeval + refine_maxeval
-  std::int64_t simulations = 0;          ///< at most: (candidates + start) x replicates + 2 x final_replicates
-  std::vector<std::string> warnings;
-  std::shared_ptr<const DesignFile> start;
-};
-StudyEstimate check_study(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// Adds [study], [map], [race] and [verify].
+void describe(io::Schema& schema, StudyKeys& keys);
 
 }  // namespace perfora::optimize

@@ -204,9 +204,8 @@ void warn_about_idle_variables(Study& study) {
                         study.variables[k].key, arm.name));
 }
 
-std::vector<double> drop_impossible(Study& study) {
+void drop_impossible(Study& study) {
   std::vector<Arm> possible;
-  std::vector<double> fractions;
   for (const Arm& arm : study.arms) {
     const double fraction = feasible_fraction(study, arm);
     if (fraction < 0.0) {
@@ -219,13 +218,12 @@ std::vector<double> drop_impossible(Study& study) {
       study.warnings.push_back(
           fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
     possible.push_back(arm);
-    fractions.push_back(fraction);
+    possible.back().fraction = fraction;
   }
   if (possible.empty())
     throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "",
                          "see the layouts of the design");
   study.arms = std::move(possible);
-  return fractions;
 }
 
 std::vector<int> listed(const Study& study, const io::Origin& origin) {
@@ -250,21 +248,6 @@ std::vector<int> listed(const Study& study, const io::Origin& origin) {
   return counts;
 }
 
-void allocate(Study& study, const std::vector<double>& fractions, const io::Origin& origin) {
-  std::vector<int> counts;
-  if (study.keys.allocation == "equal")
-    counts = share_out(study.keys.maxeval, std::vector<double>(study.arms.size(), 1.0));
-  else if (study.keys.allocation == "proportional")
-    counts = share_out(study.keys.maxeval, fractions);
-  else
-    counts = listed(study, origin);
-  if (study.keys.allocation == "equal" && study.keys.maxeval < static_cast<int>(study.arms.size()))
-    throw io::InputError(origin, fmt::format("maxeval is {} for {} arms", study.keys.maxeval, study.arms.size()),
-                         "at least one candidate an arm", "raise maxeval or take fewer arms");
-  for (std::size_t k = 0; k < counts.size(); ++k) study.arms[k].maxeval = counts[k];
-  std::erase_if(study.arms, [](const Arm& arm) { return arm.maxeval == 0; });
-}
-
 }  // namespace
 
 void make_variables(Study& study, const ArmEntries& entries) {
@@ -280,7 +263,7 @@ void make_variables(Study& study, const ArmEntries& entries) {
                          "add \"layout.diameter\" = [\"16 mm\", \"20 mm\"] under [variables]");
 }
 
-void make_arms(Study& study, const ArmEntries& entries, const io::Origin& allocation) {
+void make_arms(Study& study, const ArmEntries& entries) {
   const auto axes = collect_axes(study, entries);
   study.arms.clear();
   for (const Arm& combination : product(axes))
@@ -295,9 +278,25 @@ void make_arms(Study& study, const ArmEntries& entries, const io::Origin& alloca
     throw io::InputError({study.file.string(), 0, "arms"}, fmt::format("the choices make more than {} arms", most_arms),
                          "", "narrow them");
   drop_repeated(study);
-  const auto fractions = drop_impossible(study);
+  drop_impossible(study);
   warn_about_idle_variables(study);
-  allocate(study, fractions, allocation);
+}
+
+void allocate(Study& study, const io::Origin& origin) {
+  std::vector<int> counts;
+  std::vector<double> fractions;
+  for (const Arm& arm : study.arms) fractions.push_back(arm.fraction);
+  if (study.keys.allocation == "equal")
+    counts = share_out(study.keys.maxeval, std::vector<double>(study.arms.size(), 1.0));
+  else if (study.keys.allocation == "proportional")
+    counts = share_out(study.keys.maxeval, fractions);
+  else
+    counts = listed(study, origin);
+  if (study.keys.allocation == "equal" && study.keys.maxeval < static_cast<int>(study.arms.size()))
+    throw io::InputError(origin, fmt::format("maxeval is {} for {} arms", study.keys.maxeval, study.arms.size()),
+                         "at least one candidate an arm", "raise maxeval or take fewer arms");
+  for (std::size_t k = 0; k < counts.size(); ++k) study.arms[k].maxeval = counts[k];
+  std::erase_if(study.arms, [](const Arm& arm) { return arm.maxeval == 0; });
 }
 
 std::vector<double> halton_point(int index, int dimension) {

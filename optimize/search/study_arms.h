@@ -20,8 +20,12 @@ void make_variables(Study& study, const ArmEntries& entries);
 
 /// Sets study.arms: the product of all choices (integer keys of [variables] are ranges [lowest, highest]; [arms] lists
 /// single values) and starts. Arms that cannot be laid, and those with the same holes and start as one before them, are
-/// left out with a warning. `allocation` is the origin of that key. Throws io::InputError.
-void make_arms(Study& study, const ArmEntries& entries, const io::Origin& allocation);
+/// left out with a warning. They have no candidates yet. Throws io::InputError.
+void make_arms(Study& study, const ArmEntries& entries);
+
+/// Gives each arm its part of maxeval, as `allocation` says; arms that get none are left out. `origin` is that of the
+/// key. Throws io::InputError.
+void allocate(Study& study, const io::Origin& origin);
 
 /// Point number `index` (from 0) of Halton's sequence in [0, 1)^dimension.
 std::vector<double> halton_point(int index, int dimension);

@@ -12,32 +12,16 @@
 #include "io/hdf5.h"
 #include "io/text.h"
 #include "optimize/search/model_record.h"
+#include "optimize/search/map_result.h"
 #include "optimize/search/searcher.h"
+#include "optimize/search/study_parts.h"
+#include "optimize/search/study_plan.h"
 #include "optimize/search/study_record.h"
 
 namespace perfora::optimize {
 namespace {
 
 using nlohmann::json;
-
-json score_json(const Score& score) {
-  if (score.replicates == 0) return nullptr;
-  const bool any = score.failed < score.replicates;
-  return {{"score", score.valid ? number(score.value) : json(nullptr)},
-          {"mean", any ? number(score.plateau_mean) : json(nullptr)},
-          {"standard_deviation", any ? number(score.plateau_std) : json(nullptr)},
-          {"undulation", any ? number(score.undulation_mean) : json(nullptr)},
-          {"first_peak_stress", any ? number(score.first_peak_mean) : json(nullptr)},
-          {"count", score.replicates - score.failed},
-          {"failed", score.failed}};
-}
-
-json value_json(const io::Value& value) {
-  if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return *whole;
-  if (const auto* real = std::get_if<double>(&value.data)) return *real;
-  return nullptr;
-}
 
 json window_json(const results::MeasureOptions& measures) {
   if (measures.plateau == results::PlateauPlace::found) return nullptr;
@@ -57,28 +41,24 @@ std::vector<results::Reach> reach_of(const StudyRun& run) {
   for (const results::Wish& wish : results::wishes(target)) {
     const auto place = std::find(recorded.begin(), recorded.end(), wish.measure) - recorded.begin();
     results::Reach reach{wish.measure};
-    for (const Trace& trace : run.plan().traces)
-      for (const Visit& visit : trace.visits) {
-        if (!visit.detail.valid) continue;
-        const double mean = visit.detail.recorded[static_cast<std::size_t>(place)];
-        if (!std::isfinite(mean)) continue;
-        reach.low = reach.candidates == 0 ? mean : std::min(reach.low, mean);
-        reach.high = reach.candidates == 0 ? mean : std::max(reach.high, mean);
-        ++reach.candidates;
-      }
+    const auto add = [&](const Visit& visit) {
+      if (!visit.detail.valid) return;
+      const double mean = visit.detail.recorded[static_cast<std::size_t>(place)];
+      if (!std::isfinite(mean)) return;
+      reach.low = reach.candidates == 0 ? mean : std::min(reach.low, mean);
+      reach.high = reach.candidates == 0 ? mean : std::max(reach.high, mean);
+      ++reach.candidates;
+    };
+    // Levels do not carry over from one fidelity to another.
+    const Study& study = run.study();
+    if (study.map_fidelity == study.verify_fidelity)
+      for (const Visit& visit : run.plan().map) add(visit);
+    if (study.verify_fidelity == 0)
+      for (const Trace& trace : run.plan().traces)
+        for (const Visit& visit : trace.visits) add(visit);
     all.push_back(reach);
   }
   return all;
-}
-
-/// Values of the keys that the study varies.
-json design_values(const Study& study, const Candidate& candidate) {
-  json values = json::object();
-  if (candidate.arm >= 0)
-    for (const DesignChange& choice : study.arms[static_cast<std::size_t>(candidate.arm)].choices)
-      values[choice.key] = value_json(choice.value);
-  for (std::size_t k = 0; k < candidate.values.size(); ++k) values[study.variables[k].key] = candidate.values[k];
-  return values;
 }
 
 json finals_json(const Finals& finals) {
@@ -113,6 +93,7 @@ json arms_json(const StudyRun& run) {
                     {"breaking_a_constraint", violating},
                     {"best_score", best},
                     {"stop_reason", trace.finished ? json(trace.reason) : json(nullptr)}});
+    if (!trace.note.empty()) arms.back()["note"] = trace.note;
   }
   return arms;
 }
@@ -201,9 +182,8 @@ std::optional<results::Verdict> verdict_of(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
   if (!plan.best || results::wishes(study.target).empty()) return std::nullopt;
-  const int first = study.keys.replicates, count = study.keys.final_replicates;
-  auto judged = run.known(*plan.best, first, count);
-  const bool fresh = count > 0 && static_cast<int>(judged.size()) == count;
+  auto judged = fresh_blocks(run);
+  const bool fresh = !judged.empty();
   if (!fresh) judged = run.known(*plan.best, 0, study.keys.replicates);
   return results::verdict_on(study.target, judged, fresh, reach_of(run));
 }
@@ -235,6 +215,7 @@ json to_json(StudyRun& run) {
   record["start"] = start ? design_values(study, *start) : json(nullptr);
   record["start_score"] = plan.start.detail.valid ? number(plan.start.score) : json(nullptr);
   record["finals"] = finals_json(plan.finals);
+  record.update(end_json(run));
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   if (plan.finished && study.keys.algorithm == "model") record["model"] = model_of(run);
   record["performance"] = performance_json(run);
@@ -282,6 +263,8 @@ void write_results(StudyRun& run) {
   const std::string best = best_toml(run);
   if (!best.empty()) io::write_file(folder / "best.toml", best);
   io::write_file(folder / "evaluations.csv", evaluations_csv(run));
+  io::write_file(folder / "candidates.csv", candidates_csv(run));
+  if (const auto map = run.map(); map && !map->designs.empty()) write_map(*map, folder);
   io::write_file(folder / "study.json", to_json(study_record(run)).dump() + "\n");
   io::write_file(folder / "result.json", to_json(run).dump(2) + "\n");
 }

@@ -7,105 +7,120 @@
 #include <set>
 
 #include "io/error.h"
+#include "io/progress.h"
 #include "io/text.h"
+#include "optimize/search/map_import.h"
+#include "optimize/search/map_result.h"
 #include "optimize/search/study_result.h"
+#include "optimize/search/study_space.h"
+#include "results/campaign_folder.h"
 
 namespace perfora::optimize {
 namespace {
 
 using nlohmann::json;
 
-/// Keys that may differ on resume: they only say how far to go, and the points on the way there stay the same.
-bool may_change(const std::string& key) {
-  static const std::set<std::string> keys{"study.maxeval", "study.refine", "study.refine_maxeval", "study.refine_step",
-                                          "study.final_replicates"};
-  return keys.contains(key);
+/// Keys that may differ on resume: they say how far to go, so that the points on the way there stay the same, or what
+/// is wished, so that all that is known is measured anew.
+bool may_change(const Difference& one) {
+  static const std::set<std::string> keys{"study.maxeval",     "study.refine",           "study.refine_maxeval",
+                                          "study.refine_step", "study.final_replicates", "study.budget",
+                                          "map.designs",       "race.finalists",         "race.keep",
+                                          "race.replicates",   "verify.fidelity"};
+  const std::string& key = one.key;
+  return keys.contains(key) || key.starts_with("target.") || key.starts_with("design.target.") ||
+         key.starts_with("design.measures.") || (key.starts_with("fidelity.") && one.there == "nothing");
 }
 
-/// Arms are compared by name; their shares of maxeval may grow with it.
-std::string arm_names(const Study& study) {
-  std::string names;
-  for (const Arm& arm : study.arms) names += (names.empty() ? "" : "; ") + arm.name;
-  return names;
-}
+/// How often the surroundings of a run cost more than the run itself: a limit of time is kept by this much.
+constexpr double margin = 1.2;
 
 }  // namespace
 
 int useful_workers(const Study& study, int asked) {
-  const std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * study.keys.replicates;
+  const StudyKeys& keys = study.keys;
+  std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * keys.replicates;
+  if (study.searcher->asks_in_batches()) parallel = std::max(parallel, std::int64_t{keys.batch} * keys.replicates);
+  parallel = std::max(parallel, std::int64_t{keys.map.designs} * keys.map.replicates);
+  parallel = std::max(parallel, std::int64_t{keys.race.finalists} * keys.race.replicates);
   return workers_for(asked, study.keys.execution.workers, parallel);
 }
 
-StudyRun::StudyRun(Study study, WorkOptions options) : study_(std::move(study)), driver_(study_) {
+StudyRun::StudyRun(Study study, WorkOptions options, double wall_time)
+    : study_(std::move(study)), driver_(study_), wall_time_(wall_time) {
   options.execution = study_.keys.execution;
+  if (options.resume) keep_planned(study_, options.folder);
+  planned_ = plan_of(study_);
+  Taken taken = read_map(options);  // before the folder is begun: it may be refused
   open(std::move(options));
+  take_map(std::move(taken));
+  taken_over_ = tell_driver(driver_, study_, results::journal_events(this->options().folder), kind());
 }
 
 std::vector<std::string> StudyRun::own_files() const {
-  return {"journal.jsonl", "result.json",  "best.toml",   "best.h5",  "best.csv",
-          "best.xdmf",     "best.xdmf.h5", "best.part",   "best.png", "evaluations.csv",
-          "study.json",    "study.png",    "report.html", "runs",     "histories"};
+  return {"journal.jsonl",  "result.json",  "best.toml",   "best.h5",  "best.csv",
+          "best.xdmf",      "best.xdmf.h5", "best.part",   "best.png", "evaluations.csv",
+          "study.json",     "study.png",    "report.html", "map.json", "map.csv",
+          "candidates.csv", "map.png",      "runs",        "histories"};
 }
 
 json StudyRun::identity() const {
-  auto resolved = study_.resolved();
-  resolved["arms"] = arm_names(study_);
-  return {{"schema", "perfora.study/1"}, {"resolved", resolved}, {"file", study_.file.filename().string()}};
-}
-
-/// A key that the program had not learned when the head was written is the same at its default.
-/// Of a key in the header of a journal: "study.maxeval", "design.layout.diameter", "variables.layout.diameter".
-std::string StudyRun::name_today(const std::string& key) const {
-  for (const std::string table : {"design.", "variables."})
-    if (key.starts_with(table)) return table + study_.start->schema().name_today(key.substr(table.size()));
-  return key;
+  json head = study_identity(study_);
+  head["schema"] = "perfora.study/1";
+  head["plan"] = planned(study_);
+  return head;
 }
 
 void StudyRun::check_same(const json& head, const std::filesystem::path& journal) const {
-  auto refuse = [&](const std::string& key, const std::string& old_value, const std::string& new_value) {
-    throw io::InputError({journal.string(), 0, key},
-                         fmt::format("the study of this folder has {}, this one has {}", old_value, new_value),
-                         "only maxeval, refine and final_replicates may change when a study goes on",
-                         "give the study as it was, or start another folder with -o");
-  };
-  auto text_of = [](const json& object, const std::string& key) {
-    const auto found = object.find(key);
-    return found == object.end() ? std::string("nothing")
-           : found->is_string()  ? found->get<std::string>()
-                                 : found->dump();
-  };
-  json there = json::object();
-  for (const auto& [key, value] : head.at("resolved").items()) there[name_today(key)] = value;
-  json here = identity().at("resolved");
-  std::set<std::string> keys;
-  for (const json* object : {&there, &here})
-    for (const auto& entry : object->items()) keys.insert(entry.key());
-  const std::set<std::string> at_default = study_.at_default();
-  for (const std::string& key : keys) {
-    if (!there.contains(key) && at_default.contains(key)) continue;
-    const std::string old_value = text_of(there, key), new_value = text_of(here, key);
-    if (old_value != new_value && !may_change(key)) refuse(key, old_value, new_value);
-  }
+  for (const Difference& one : differences(study_, head))
+    if (!may_change(one))
+      throw io::InputError({journal.string(), 0, one.key},
+                           fmt::format("the study of this folder has {}, this one has {}", one.there, one.here),
+                           "only [target], [map], [race], maxeval, budget, refine and final_replicates may change when "
+                           "a study goes on",
+                           "give the study as it was, or start another folder with -o");
 }
 
-std::vector<const Evaluation*> StudyRun::known(const Candidate& candidate, int first, int count) {
-  std::vector<const Evaluation*> found;
-  if (candidate.violation > 0.0) return found;
-  for (int replicate = first; replicate < first + count; ++replicate) {
-    const Evaluation* answer = answer_for(candidate.request(replicate), book().key(candidate, replicate), answers());
-    if (answer) found.push_back(answer);
+StudyRun::Taken StudyRun::read_map(const WorkOptions& options) {
+  const std::filesystem::path& from = study_.keys.map.from;
+  if (from.empty()) return {};
+  std::set<std::string> there;  // a kill may have left a part
+  for (const json& event : options.resume ? results::journal_events(options.folder) : std::vector<json>()) {
+    if (event.value("event", "") == "map_taken" && event.value("from", "") == from.string()) return {};
+    if (event.value(taken_over_name, false)) there.insert(event.at("key").get<std::string>());
   }
+  const io::Origin origin{study_.file.string(), 0, "map.from"};
+  Taken taken{evaluations_of(from, study_, origin), 0};
+  taken.designs = designs_of(taken.events, study_, driver_.book()).size();
+  if (taken.designs == 0)
+    throw io::InputError(origin, fmt::format("{} holds no design of this study", from.string()), "",
+                         "name another folder");
+  std::erase_if(taken.events, [&](const json& event) { return there.contains(event.at("key").get<std::string>()); });
+  return taken;
+}
+
+void StudyRun::take_map(Taken taken) {
+  if (taken.designs == 0) return;
+  const std::filesystem::path& from = study_.keys.map.from;
+  for (json& event : taken.events) take_over(std::move(event), from);
+  note({{"event", "map_taken"}, {"from", from.string()}, {"designs", taken.designs}});
+}
+
+std::optional<results::MapRecord> StudyRun::map() {
+  if (plan_.map.empty()) return std::nullopt;
+  return map_record(study_, driver_.book(), answers(), plan_);
+}
+
+std::vector<const Evaluation*> StudyRun::known(const Candidate& candidate, int first, int count, std::size_t fidelity) {
+  if (candidate.violation > 0.0) return {};
+  auto found = CandidateStore(study_, book(), answers()).evaluations(candidate, first, count, fidelity);
+  std::erase(found, nullptr);
   return found;
 }
 
-std::int64_t StudyRun::most_evaluations() const {
-  const auto& keys = study_.keys;
-  const std::int64_t candidates = std::int64_t{keys.maxeval} + (keys.refine.empty() ? 0 : keys.refine_maxeval) + 1;
-  return candidates * keys.replicates + 2 * std::int64_t{keys.final_replicates};
-}
-
 std::int64_t StudyRun::remaining() const {
-  return most_evaluations() - static_cast<std::int64_t>(answers().size());
+  const std::int64_t own = static_cast<std::int64_t>(answers().size()) - taken_over_;
+  return std::max<std::int64_t>(0, planned_.runs() - own);
 }
 
 std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation) {
@@ -114,19 +129,57 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
   std::string what = usable(evaluation)
                          ? "plateau " + io::quantity(evaluation.summary.plateau_stress, io::Dimension::stress, "none")
                          : "failed: " + (evaluation.reason.empty() ? "no plateau" : evaluation.reason);
-  const bool final_stage = asked.request.replicate >= study_.keys.replicates;
-  if (!final_stage && static_cast<int>(all.size()) == study_.keys.replicates) {
+  const int replicate = asked.request.replicate;
+  const char* stage = replicate >= first_confirming_replicate ? "confirming "
+                      : replicate >= first_race_replicate     ? "race "
+                      : replicate >= study_.keys.replicates   ? "final "
+                                                              : "";
+  const bool scored = asked.request.fidelity == study_.fidelities.front().name;
+  if (*stage == '\0' && scored && static_cast<int>(all.size()) == study_.keys.replicates) {
     const Score score = score_of(study_.target, all);
     what += score.valid ? fmt::format(", score {:.4g}", score.value) : ", no score";
   }
   const std::string best = plan_.best ? fmt::format("; best so far {:.4g}", plan_.best_score.value) : "";
-  const auto done = static_cast<std::int64_t>(answers().size());
-  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}", done, most_evaluations(), asked.label,
-                     final_stage ? "final " : "", asked.request.replicate + 1, what, best);
+  const std::int64_t most = planned_.runs(), done = most - remaining();
+  const int number = replicate >= first_confirming_replicate ? replicate - first_confirming_replicate
+                     : replicate >= first_race_replicate     ? replicate - first_race_replicate
+                                                             : replicate;
+  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}", done, most, asked.label, stage,
+                     number + 1, what, best);
+}
+
+void StudyRun::end_early_if_late() {
+  if (!(wall_time_ > 0.0) || driver_.search_ended() || plan_.finished || !plan_.finalists.empty()) return;
+  const auto own = static_cast<double>(answers().size()) - taken_over_;
+  if (!(own > 0.0)) return;
+  const double slower = simulated_seconds() / own / run_seconds(study_, 0);
+  double behind = 0.0;  // of one processor
+  for (const PlannedStage& stage : planned_.stages)
+    if (stage.name == "race" || stage.name == "verify" || stage.name == "best of the map") behind += stage.seconds();
+  const int together = std::max(1, useful_workers(study_, 0));
+  if (seconds() < wall_time_ - margin * slower * behind / together) return;
+  json dropped = json::array();
+  std::set<const Candidate*> open;
+  for (const Wanted& one : plan_.wanted)
+    if (open.insert(one.candidate).second)
+      dropped.push_back({{"arm", one.candidate->arm}, {"values", one.candidate->values}});
+  const std::string reason =
+      fmt::format("ended early, after {}, to keep to {}", io::duration(seconds()), io::duration(wall_time_));
+  note({{"event", "early_end"}, {"reason", reason}, {"dropped", dropped}});
+  io::log_warning("the search is " + reason);
+  driver_.end_search(reason, std::move(open));
+  plan_ = driver_.plan(answers());
 }
 
 std::vector<Asked> StudyRun::pending(const Answers& answers) {
   plan_ = driver_.plan(answers);
+  end_early_if_late();
+  for (const Trace& trace : plan_.traces)
+    if (!trace.note.empty() && said_.insert(trace.note).second) io::log_info(trace.note);
+  for (const Batch& batch : plan_.new_batches) {
+    note(to_json(batch, study_));
+    driver_.take(batch);
+  }
   std::vector<Asked> asked;
   for (const Wanted& one : plan_.wanted) {
     candidates_[one.key] = one.candidate;

@@ -105,6 +105,7 @@ const std::vector<Command>& commands() {
       {"evaluate", {"evaluate", "design.toml"}, "R.h5"},
       {"replicates", {"evaluate", "design.toml", "--replicates", "2"}, "work"},
       {"optimize", {"optimize", "study.toml"}, "work", true},
+      {"map", {"map", "study.toml", "--designs", "3"}, "work", true},
       {"sweep", {"sweep", "sweep.toml"}, "work", true},
       {"calibrate", {"calibrate", "calibration.toml"}, "work", true},
       {"test", {"test", "solid.toml"}, "R.h5", false, "--force"},

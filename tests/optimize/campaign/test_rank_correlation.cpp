@@ -31,6 +31,14 @@ TEST(RankCorrelation, IsTheTextbookFormulaWithoutTies) {
   EXPECT_NEAR(result.coefficient, 1.0 - 36.0 / 210.0, 1e-14);
 }
 
+TEST(RankCorrelation, TrustNeedsTwentyCasesAndFourFifths) {
+  const auto with = [](int count, double coefficient) { return trust_in({count, coefficient, 0.0, 1.0}); };
+  EXPECT_EQ(with(19, 0.99), Trust::too_few);
+  EXPECT_EQ(with(20, 0.8), Trust::trusted);
+  EXPECT_EQ(with(50, 0.79), Trust::not_trusted);
+  EXPECT_EQ(with(50, std::nan("")), Trust::not_trusted);
+}
+
 // rho = 0: the interval is tanh(-+1.959964/sqrt(n - 3)). Ranks 1..4 against 2 4 1 3: d^2 = 1 + 4 + 4 + 1 = 10, so
 // 1 - 60/60 = 0; n - 3 = 1.
 TEST(RankCorrelation, IntervalAtZeroIsThatOfFisher) {

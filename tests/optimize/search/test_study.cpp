@@ -9,6 +9,7 @@
 
 #include "io/text.h"
 #include "optimize/search/study_arms.h"
+#include "optimize/search/study_plan.h"
 #include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
@@ -293,10 +294,12 @@ TEST_F(StudyFile, CountsWhatWouldRun) {
   const auto path = folder.file(
       "study.toml",
       study_text("maxeval = 12\nreplicates = 2\nfinal_replicates = 5\nrefine = \"LN_SBPLX\"\nrefine_maxeval = 4"));
-  const StudyEstimate estimate = check_study(path);
-  EXPECT_EQ(estimate.candidates, 16);
-  EXPECT_EQ(estimate.simulations, 17 * 2 + 10);
-  EXPECT_EQ(estimate.arms.size(), 1U);
+  const StudyPlan plan = plan_of(read_study(path));
+  std::int64_t candidates = 0;
+  for (const PlannedStage& stage : plan.stages)
+    if (stage.name == "search" || stage.name == "refine") candidates += stage.designs;
+  EXPECT_EQ(candidates, 16);
+  EXPECT_EQ(plan.runs(), 17 * 2 + 10);
 }
 
 TEST_F(StudyFile, RefusesWhatIsWrongByKeyAndRemedy) {

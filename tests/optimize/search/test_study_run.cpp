@@ -208,17 +208,17 @@ TEST_F(StudyRunTest, RefusesAFolderInUseAndAnotherStudy) {
   };
   EXPECT_NE(refused(study_text(std::string(keys) + "\nxtol = 0.1", arms)).find("study.xtol"), std::string::npos);
   EXPECT_NE(refused(study_text(keys, "rows = [2]")).find("arms"), std::string::npos);
-  const std::string target = [] {
+  const std::string longer = [] {
     std::string text = study_text(keys, arms);
-    return text.replace(text.find("0.2 MPa"), 7, "0.3 MPa");
+    return text.replace(text.find("0.45"), 4, "0.48");
   }();
-  const std::string message = refused(target);
-  EXPECT_NE(message.find("target.plateau_stress"), std::string::npos) << message;
-  EXPECT_NE(message.find("200000"), std::string::npos) << message;
-  EXPECT_NE(message.find("300000"), std::string::npos) << message;
+  const std::string message = refused(longer);
+  EXPECT_NE(message.find("until"), std::string::npos) << message;
+  EXPECT_NE(message.find("0.45"), std::string::npos) << message;
+  EXPECT_NE(message.find("0.48"), std::string::npos) << message;
   WorkOptions force = options("out");
   force.force = true;
-  StudyRun fresh(study(target), force);
+  StudyRun fresh(study(longer), force);
   EXPECT_TRUE(fresh.answers().empty());
 }
 
