@@ -16,9 +16,11 @@ constexpr std::pair<const char*, const char*> examples[] = {
      "  perfora evaluate designs/table1.toml --elastic -o out/table1-elastic.h5"},
     {"test", "perfora test designs/solid.toml -o out/solid-test.h5"},
     {"calibrate", "perfora calibrate designs/calibrate-concrete.toml -o out/concrete"},
+    {"map", "perfora map designs/study-quick.toml --designs 24 -o out/study-quick-map"},
     {"optimize",
      "perfora optimize designs/study-quick.toml -o out/study-quick\n"
-     "  perfora optimize designs/study-quick.toml -o out/study-quick --resume"},
+     "  perfora optimize designs/study-quick.toml -o out/study-quick --resume\n"
+     "  perfora optimize designs/study-quick.toml --map out/study-quick-map -o out/study-mapped"},
     {"sweep", "perfora sweep designs/sweep-quick.toml -o out/sweep-quick"},
     {"correlate", "perfora correlate out/fine out/coarse -o out/ranks.png"},
     {"check", "perfora check designs/study.toml"},

@@ -75,11 +75,6 @@ void add_map(CLI::App& program, int& exit_code) {
   command->add_flag("--resume", flags->resume, "Continue a map that was stopped or killed, or shall have more designs");
   add_worker_flags(*command, flags->workers, "study");
   add_common_flags(*command, flags->common);
-  command->footer(
-      "Examples:\n"
-      "  perfora map study.toml -o map --designs 96        some 100 designs, two packings each\n"
-      "  perfora optimize study.toml --map map             a search that begins with them\n"
-      "  perfora optimize other-target.toml --map map      another wish, without running them again");
   command->callback([flags, &exit_code] {
     flags->common.apply();
     exit_code = map_study(*flags);

@@ -139,11 +139,6 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command->add_flag("--no-run-file", flags->no_run_file,
                     "Do not run the best design once more for best.h5 and best.png");
   add_common_flags(*command, flags->common);
-  command->footer(
-      "Examples:\n"
-      "  perfora optimize study.toml -o result\n"
-      "  perfora optimize study.toml -o result --resume     after a stop, or with more candidates or another target\n"
-      "  perfora optimize study.toml --map map              beginning with the designs of `perfora map`");
   command->callback([flags, &exit_code] {
     flags->common.apply();
     exit_code = optimize_study(*flags);

@@ -22,12 +22,6 @@ constexpr int usual_finalists = 12;
 /// Race and verification take no more of a budget that leaves them open.
 constexpr double most_of_race = 0.15;
 
-PlannedStage stage(const Study& study, const char* name, std::size_t fidelity, std::int64_t designs,
-                   std::int64_t runs) {
-  return {name, study.fidelities[fidelity].name, designs,
-          runs, run_seconds(study, fidelity),    study.costs[fidelity] > 0.0};
-}
-
 std::int64_t verified(const Study& study) {
   return study.keys.race.finalists > 0 ? study.keys.race.keep : 1;
 }
@@ -63,26 +57,31 @@ double run_seconds(const Study& study, std::size_t fidelity) {
 StudyPlan plan_of(const Study& study) {
   const StudyKeys& keys = study.keys;
   StudyPlan plan;
+  std::vector<double> costs(study.fidelities.size(), -1.0);  // an estimate takes a while
+  const auto stage = [&](const char* name, std::size_t fidelity, std::int64_t designs, std::int64_t runs) {
+    if (costs[fidelity] < 0.0) costs[fidelity] = run_seconds(study, fidelity);
+    return PlannedStage{
+        name, study.fidelities[fidelity].name, designs, runs, costs[fidelity], study.costs[fidelity] > 0.0};
+  };
   const auto add = [&](const PlannedStage& one) {
     if (one.runs > 0) plan.stages.push_back(one);
   };
-  add(stage(study, "map", study.map_fidelity, keys.map.designs, std::int64_t{keys.map.designs} * keys.map.replicates));
+  add(stage("map", study.map_fidelity, keys.map.designs, std::int64_t{keys.map.designs} * keys.map.replicates));
   if (keys.maxeval == 0) return plan;
-  add(stage(study, "start", 0, 1, keys.replicates));
-  add(stage(study, "search", 0, keys.maxeval, std::int64_t{keys.maxeval} * keys.replicates));
+  add(stage("start", 0, 1, keys.replicates));
+  add(stage("search", 0, keys.maxeval, std::int64_t{keys.maxeval} * keys.replicates));
   if (keys.map.designs > 0) {
     const int taken = std::min(keys.map.designs, std::max(1, keys.race.finalists));
     const int known = study.map_fidelity == 0 ? std::min(keys.map.replicates, keys.replicates) : 0;
-    add(stage(study, "best of the map", 0, taken, std::int64_t{taken} * (keys.replicates - known)));
+    add(stage("best of the map", 0, taken, std::int64_t{taken} * (keys.replicates - known)));
   }
   if (!keys.refine.empty())
-    add(stage(study, "refine", 0, keys.refine_maxeval, std::int64_t{keys.refine_maxeval} * keys.replicates));
-  add(stage(study, "race", 0, keys.race.finalists, race_runs(keys.race)));
+    add(stage("refine", 0, keys.refine_maxeval, std::int64_t{keys.refine_maxeval} * keys.replicates));
+  add(stage("race", 0, keys.race.finalists, race_runs(keys.race)));
   const std::int64_t ends = verified(study) + 1;  // and the start
-  add(stage(study, "verify", study.verify_fidelity, ends, ends * keys.final_replicates));
+  add(stage("verify", study.verify_fidelity, ends, ends * keys.final_replicates));
   // Another design than the first of the race may come out best; it and the start are then run once more.
-  if (verified(study) > 1)
-    add(stage(study, "confirm", study.verify_fidelity, 2, std::int64_t{2} * keys.final_replicates));
+  if (verified(study) > 1) add(stage("confirm", study.verify_fidelity, 2, std::int64_t{2} * keys.final_replicates));
   return plan;
 }
 

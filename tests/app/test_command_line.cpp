@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
-  for (const std::string command : {"", "pack", "evaluate", "optimize", "sweep", "correlate", "test", "calibrate",
-                                    "check", "show", "plot", "export", "draw"}) {
+  for (const std::string command : {"", "pack", "evaluate", "map", "optimize", "sweep", "correlate", "test",
+                                    "calibrate", "check", "show", "plot", "export", "draw"}) {
     const Outcome help = run(command + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.error, "") << command;

@@ -142,19 +142,22 @@ TEST_F(MapTest, OneMapServesEveryTarget) {
   const Study study = read(study_text("maxeval = 2\nreplicates = 2\nfinal_replicates = 0", map_arms) + taken,
                            {"target.plateau_stress=3e5", "target.window=[0.1, 0.3]"});
   asked = 0;
-  StudyRun run(study, options("study"));
-  EXPECT_EQ(run.taken_over(), 20);
-  run.run();
-  EXPECT_EQ(asked, 4 + 2) << "two candidates and the start, with two replicates each";
-  const auto record = to_json(run);
-  EXPECT_EQ(record.at("map").at("designs"), 10);
-  ASSERT_NE(run.plan().best, nullptr);
-  for (const Visit& visit : run.plan().map)
-    if (visit.detail.valid) {
-      EXPECT_LE(run.plan().best_score.value, visit.score);
-      EXPECT_NEAR(run.known(*visit.candidate, 0, 1).front()->summary.plateau_start, 0.1, 1e-12);
-    }
-  EXPECT_TRUE(std::filesystem::exists(folder / "study" / "map.csv"));
+  nlohmann::json record;
+  {
+    StudyRun run(study, options("study"));
+    EXPECT_EQ(run.taken_over(), 20);
+    run.run();
+    EXPECT_EQ(asked, 4 + 2) << "two candidates and the start, with two replicates each";
+    record = to_json(run);
+    EXPECT_EQ(record.at("map").at("designs"), 10);
+    ASSERT_NE(run.plan().best, nullptr);
+    for (const Visit& visit : run.plan().map)
+      if (visit.detail.valid) {
+        EXPECT_LE(run.plan().best_score.value, visit.score);
+        EXPECT_NEAR(run.known(*visit.candidate, 0, 1).front()->summary.plateau_start, 0.1, 1e-12);
+      }
+    EXPECT_TRUE(std::filesystem::exists(folder / "study" / "map.csv"));
+  }
   // On a resume the other folder is not needed any more.
   std::filesystem::remove_all(folder / "map");
   asked = 0;

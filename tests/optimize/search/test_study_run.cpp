@@ -210,12 +210,12 @@ TEST_F(StudyRunTest, RefusesAFolderInUseAndAnotherStudy) {
   EXPECT_NE(refused(study_text(keys, "rows = [2]")).find("arms"), std::string::npos);
   const std::string longer = [] {
     std::string text = study_text(keys, arms);
-    return text.replace(text.find("0.45"), 4, "0.48");
+    return text.replace(text.find("0.45"), 4, "0.50");
   }();
   const std::string message = refused(longer);
   EXPECT_NE(message.find("until"), std::string::npos) << message;
   EXPECT_NE(message.find("0.45"), std::string::npos) << message;
-  EXPECT_NE(message.find("0.48"), std::string::npos) << message;
+  EXPECT_NE(message.find("one has 0.5;"), std::string::npos) << message;
   WorkOptions force = options("out");
   force.force = true;
   StudyRun fresh(study(longer), force);
