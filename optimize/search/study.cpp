@@ -242,7 +242,8 @@ std::map<std::string, std::string> Study::resolved() const {
   describe(schema, aim);
   describe(schema, limits);
   for (const io::Key& key : schema.keys())
-    if (key.type != io::KeyType::path && !(key.section == "study" && is_execution_key(key.name)))
+    if (key.full_name() != "study.design" && key.full_name() != "map.from" &&
+        !(key.section == "study" && is_execution_key(key.name)))
       all[key.full_name()] = io::value_text(key.get());
   for (const Variable& variable : variables)
     all["variables." + variable.key] = fmt::format("[{:.17g}, {:.17g}]", variable.low, variable.high);

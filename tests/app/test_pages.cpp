@@ -58,7 +58,7 @@ TEST_F(CommandLine, CompletionIsThatOfTheProgram) {
   EXPECT_EQ(read_text(folder_ / "c.txt"), "--resume\noptimize\n");
   const Outcome zsh = run("completion zsh"), manual = run("completion man");
   EXPECT_THAT(zsh.output, HasSubstr("#compdef perfora"));
-  EXPECT_THAT(zsh.output, Not(HasSubstr("worker")));
+  EXPECT_THAT(zsh.output, Not(HasSubstr("'worker:")));
   EXPECT_THAT(manual.output, HasSubstr(".SS evaluate"));
   EXPECT_THAT(manual.output, HasSubstr("\\fB\\-\\-resume\\fR"));
   EXPECT_EQ(run("completion fish").exit_code, 1);

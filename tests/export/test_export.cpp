@@ -47,7 +47,9 @@ SyntheticRun small_run(bool forces = false) {
 class Exports : public ::testing::Test {
  protected:
   void prepare(const SyntheticRun& run) {
-    folder_ = results::testing::fresh_folder("export");
+    // Tests may run at the same time.
+    folder_ = results::testing::fresh_folder(std::string("export-") +
+                                             ::testing::UnitTest::GetInstance()->current_test_info()->name());
     write_run(run, folder_ / "R.h5");
   }
   std::string text_of(const char* name, const ExportOptions& options = {}) {

@@ -85,13 +85,16 @@ def without_times(value):
 
 
 def is_whole(path):
-    """Whether a file that proves itself does: HDF5 by its trailer, JSON by its brackets, a journal by its lines."""
+    """Whether a file that proves itself does: HDF5 by its trailer, JSON by its brackets, HTML by its end, a journal by
+    its lines."""
     content = path.read_bytes()
     if path.suffix == ".h5":
         if len(content) < 24 or content[-24:-16] != MARK:
             return False
         length, crc = struct.unpack("<QI", content[-16:-4])
         return length == len(content) - 24 and zlib.crc32(content[:-24]) == crc
+    if path.suffix == ".html":
+        return content.rstrip().endswith(b"</html>")
     if path.suffix == ".json":
         try:
             json.loads(content)
@@ -137,6 +140,8 @@ def results(folder, left_out=()):
             found[name] = sorted(json.dumps(e, sort_keys=True) for e in events if e.get("event") == "evaluation")
         elif path.suffix == ".h5":
             found[name] = hdf5_content(path)
+        elif path.suffix == ".html":  # a report holds times; what it shows is in the other files
+            found[name] = is_whole(path)
         else:
             found[name] = path.read_bytes()
     return found

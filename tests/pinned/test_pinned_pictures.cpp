@@ -25,7 +25,7 @@ TEST(PinnedPictures, FoldersOfAnOlderProgramAreDrawnFinishedOrNot) {
   EXPECT_EQ(work.run("plot sweep-files --collapse -o now.png --quiet").exit_code, 0);
   EXPECT_THAT(work.run("plot sweep --collapse -o now2.png --quiet").error, HasSubstr("run_files"));
   EXPECT_THAT(work.run("plot designs -o now3.png --quiet").error + work.run("plot . -o now3.png --quiet").error,
-              HasSubstr("holds no study, sweep, ensemble or calibration"));
+              HasSubstr("holds no study, map, sweep, ensemble or calibration"));
   EXPECT_THAT(work.run("plot sweep run.h5 -o now4.png --quiet").error, HasSubstr("one folder alone"));
 }
 

@@ -166,7 +166,8 @@ def check_discs_drawn(pvd, run_file):
     box = (columns.max() - columns.min() + 1) * (rows.max() - rows.min() + 1)
     spans = [(positions[:, k] + radius).max() - (positions[:, k] - radius).min() for k in range(2)]
     share, wanted = drawn.sum() / box, numpy.pi * (radius ** 2).sum() / (spans[0] * spans[1])
-    require(abs(share - wanted) < 0.05 * wanted, f"discs cover {share:.4f} of their box in the picture, not {wanted:.4f}")
+    # A pixel at a rim counts whole, which adds some per cent; a diameter taken for a radius would add 300 %.
+    require(abs(share - wanted) < 0.1 * wanted, f"discs cover {share:.4f} of their box in the picture, not {wanted:.4f}")
     return share
 
 
