@@ -172,7 +172,7 @@ struct Reader {
     if (keys.map.designs < 1 && use == StudyUse::map)
       throw io::InputError(origin("map.designs"), "no number of designs is given", "a whole number >= 1",
                            "add designs = 96 under [map], or give --designs 96");
-    keys.race.keep = std::min(keys.race.keep, std::max(1, keys.race.finalists));
+    if (keys.race.finalists > 0) keys.race.keep = std::min(keys.race.keep, keys.race.finalists);
     if (use == StudyUse::map) return;
     if (keys.budget > 0.0)
       spend_budget(study, {is_default("map.designs"), is_default("race.finalists")}, origin("study.budget"));
