@@ -26,7 +26,9 @@ class Classifier {
     Kernel kernel;
     double signal = 1.0;
     Eigen::VectorXd mode, gradient, root_weight;  ///< of the latent function; W^1/2
-    Eigen::LLT<Eigen::MatrixXd> root;             ///< of I + W^1/2 K W^1/2
+    /// Of I + W^1/2 K W^1/2. Of nothing before the fit: Eigen leaves the state of an empty one undefined, even to
+    /// copies.
+    Eigen::LLT<Eigen::MatrixXd> root = Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(0, 0));
     double log_likelihood = 0.0;
   };
   Fit fit(const Kernel& kernel, double signal) const;

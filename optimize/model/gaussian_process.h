@@ -68,10 +68,12 @@ class GaussianProcess {
   Observations observations_;
   Hyperparameters hyperparameters_;
   std::vector<int> fidelities_;  ///< those with a constant of their own
-  Eigen::LLT<Eigen::MatrixXd> root_;
-  Eigen::MatrixXd constants_;                   ///< n x constants
-  Eigen::MatrixXd solved_;                      ///< K^-1 constants
-  Eigen::LLT<Eigen::MatrixXd> constants_root_;  ///< of constants' K^-1 constants
+  // Eigen leaves the state of an empty one undefined, even to copies.
+  Eigen::LLT<Eigen::MatrixXd> root_ = Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(0, 0));
+  Eigen::MatrixXd constants_;  ///< n x constants
+  Eigen::MatrixXd solved_;     ///< K^-1 constants
+  Eigen::LLT<Eigen::MatrixXd> constants_root_ =
+      Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(0, 0));  ///< of constants' K^-1 constants
   Eigen::VectorXd beta_, alpha_;
   double log_likelihood_ = 0.0;
 };
