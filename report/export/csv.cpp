@@ -14,13 +14,6 @@ void write(const std::filesystem::path& base, const char* extension, const fmt::
   io::write_file(with_extension(base, extension), {out.data(), out.size()});
 }
 
-void add_value(fmt::memory_buffer& out, const Column& column, std::size_t row) {
-  if (column.whole)
-    fmt::format_to(std::back_inserter(out), ",{}", static_cast<long long>(column.values[row]));
-  else
-    fmt::format_to(std::back_inserter(out), ",{}", column.values[row]);
-}
-
 void add_names(fmt::memory_buffer& out, const char* first, const std::vector<Column>& columns) {
   fmt::format_to(std::back_inserter(out), "frame,strain,time,{}", first);
   for (const Column& column : columns) fmt::format_to(std::back_inserter(out), ",{}", column.name);
@@ -31,7 +24,7 @@ void add_discs(fmt::memory_buffer& out, std::size_t number, const Moment& moment
   for (std::size_t d = 0; d < moment.position.size() / 2; ++d) {
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{}", number, moment.info.strain, moment.info.time, d,
                    moment.position[2 * d], moment.position[2 * d + 1]);
-    for (const Column& column : moment.columns) add_value(out, column, d);
+    for (const Column& column : moment.columns) add_value(out, ',', column, d);
     out.push_back('\n');
   }
 }
@@ -41,7 +34,7 @@ void add_pairs(fmt::memory_buffer& out, std::size_t number, const results::Frame
   for (std::size_t k = 0; k < pairs.size() / 2; ++k) {
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", number, info.strain, info.time, pairs[2 * k],
                    pairs[2 * k + 1]);
-    for (const Column& column : columns) add_value(out, column, k);
+    for (const Column& column : columns) add_value(out, ',', column, k);
     out.push_back('\n');
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "io/hdf5.h"
 #include "io/toml.h"
@@ -155,6 +156,14 @@ std::vector<std::size_t> bonds_inside(const results::FrameInfo& cell, const std:
     if (std::abs(dx) <= 0.5 * cell.h_xx && std::abs(dy) <= 0.5 * cell.h_yy) inside.push_back(b);
   }
   return inside;
+}
+
+void add_value(fmt::memory_buffer& out, char between, const Column& column, std::size_t row) {
+  out.push_back(between);
+  if (column.whole)
+    fmt::format_to(std::back_inserter(out), "{}", static_cast<long long>(column.values[row]));
+  else
+    fmt::format_to(std::back_inserter(out), "{}", column.values[row]);
 }
 
 }  // namespace perfora::report

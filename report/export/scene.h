@@ -2,6 +2,8 @@
 // writes. What is not: formats (one file each), the list of exports (registry.h).
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -31,6 +33,9 @@ struct Column {
   bool whole = false;
   std::vector<double> values;
 };
+
+/// Adds `between` and a value of a column as all texts of exports have it: with the digits that bring back its bits.
+void add_value(fmt::memory_buffer& out, char between, const Column& column, std::size_t row);
 
 /// The discs and the intact bonds at one moment.
 struct Moment {

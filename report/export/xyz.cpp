@@ -25,11 +25,7 @@ void write_xyz(const Scene& scene, const std::filesystem::path& base) {
     out.push_back('\n');
     for (std::size_t d = 0; d < scene.discs(); ++d) {
       fmt::format_to(to, "X {} {} 0", moment.position[2 * d], moment.position[2 * d + 1]);
-      for (const Column& column : moment.columns)
-        if (column.whole)
-          fmt::format_to(to, " {}", static_cast<long long>(column.values[d]));
-        else
-          fmt::format_to(to, " {}", column.values[d]);
+      for (const Column& column : moment.columns) add_value(out, ' ', column, d);
       out.push_back('\n');
     }
   }
