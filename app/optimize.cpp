@@ -112,8 +112,9 @@ int optimize_study(const OptimizeFlags& flags) {
   write_report_beside(options.folder);
   print_record(optimize::to_json(run), flags.common.json);
   if (status != results::RunStatus::stopped)
-    io::log_info(fmt::format("written: {} (result.json, evaluations.csv{})", options.folder.string(),
-                             run.plan().best ? ", best.toml, pictures study.png and best.png" : ""));
+    io::log_info(fmt::format("written: {} (result.json, evaluations.csv{}{})", options.folder.string(),
+                             run.plan().best ? ", best.toml, picture study.png" : "",
+                             fs::exists(options.folder / "best.h5") ? ", best.h5, picture best.png" : ""));
   return say_how_work_ended(status, run.troubles(), options.folder);
 }
 
