@@ -14,7 +14,7 @@ packages=(
   libhdf5-dev zlib1g-dev libtomlplusplus-dev libpugixml-dev libcli11-dev libspdlog-dev nlohmann-json3-dev  # files, command line, log
   librandom123-dev libcairo2-dev fonts-dejavu-core  # random streams, pictures
   libjs-chart.js node-pako                      # charts and decompression in reports, put into the program
-  libgtest-dev libgmock-dev libbenchmark-dev    # tests, benchmarks
+  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev    # tests, benchmarks
   python3-dev pybind11-dev python3-numpy python3-venv  # the Python module, pip install
 )
 viewer_packages=(
