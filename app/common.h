@@ -31,6 +31,8 @@ enum ExitCode : int {
   exit_stopped = 75,  ///< by a signal or the wall-time limit, with a checkpoint written
 };
 
+constexpr int most_replicates = 1000;  ///< of one design or one material test (--replicates)
+
 /// Exit code of a run or a search that ended with `status`.
 ExitCode exit_code_of(results::RunStatus status);
 

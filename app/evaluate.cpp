@@ -32,8 +32,6 @@ struct EvaluateFlags {
   double wall_time = 0.0;
 };
 
-constexpr int most_replicates = 1000;
-
 std::vector<std::string> overrides_of(const EvaluateFlags& flags) {
   std::vector<std::string> overrides = flags.common.overrides();
   if (!flags.until.empty()) overrides.push_back("loading.until=" + flags.until);

@@ -20,8 +20,6 @@ struct TestFlags {
   int replicates = 1;
 };
 
-constexpr int most_replicates = 1000;
-
 int test(const TestFlags& flags) {
   flags.common.apply();
   const optimize::DesignFile design(flags.material, flags.common.overrides());

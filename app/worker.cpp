@@ -22,16 +22,16 @@ namespace {
 
 /// Lines on standard output, one at a time, and a sign of life every second from begin() to end(): from a thread, so
 /// that it comes from long steps, too, and stops when the process is stopped.
-class Lines {
+class LineWriter {
  public:
-  Lines() {
+  LineWriter() {
     sigset_t all, before;  // Signals are the business of the thread that computes.
     sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &before);
     thread_ = std::thread([this] { tell(); });
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
-  ~Lines() {
+  ~LineWriter() {
     {
       const std::lock_guard guard(mutex_);
       ended_ = true;
@@ -39,8 +39,8 @@ class Lines {
     }
     thread_.join();
   }
-  Lines(const Lines&) = delete;
-  Lines& operator=(const Lines&) = delete;
+  LineWriter(const LineWriter&) = delete;
+  LineWriter& operator=(const LineWriter&) = delete;
 
   void begin() {
     const std::lock_guard guard(mutex_);
@@ -90,7 +90,7 @@ std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads
 }
 
 int work(int threads, double memory) {
-  Lines lines;
+  LineWriter lines;
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;

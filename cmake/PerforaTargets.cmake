@@ -22,9 +22,14 @@ function(perfora_add_room name)
     target_link_libraries(${target} PRIVATE ${library})
   endforeach()
   perfora_options(${target})
-  # Several files in one translation unit, for the sanitizers' builds: half of a build is the reading of headers. File-local names are therefore unique within a room.
+  perfora_unity(${target})
+endfunction()
+
+# perfora_unity(target): several files in one translation unit, for builds from nothing (./run, sanitizers): half of such a build is the
+# reading of headers. File-local names are therefore unique within a room.
+function(perfora_unity target)
   if(PERFORA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 
@@ -43,12 +48,28 @@ function(perfora_add_test name)
     target_link_libraries(${name} PRIVATE perfora_openmp_for_tsan)
   endif()
   perfora_label_target(${name} ${ARG_LABELS})
+  if(PERFORA_TEST_SHARDS)
+    perfora_add_shards(${name} ${ARG_LABELS})
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}" TEST_LIST ${name}_tests PROPERTIES TIMEOUT ${ARG_TIMEOUT})
   # Waiting threads sleep: tests share their cores, and a spinning thread that waits for one that is not scheduled takes a hundred times as long.
+  # CTest tries the same random designs each time (RC_PARAMS); the program by itself tries new ones.
   # Labels in a file of their own: gtest_discover_tests takes its PROPERTIES apart at every semicolon, so two labels would not arrive.
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake "foreach(test IN LISTS ${name}_tests)\n"
-    "  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${ARG_LABELS}\" ENVIRONMENT OMP_WAIT_POLICY=passive)\nendforeach()\n")
+    "  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${ARG_LABELS}\" ENVIRONMENT \"OMP_WAIT_POLICY=passive;RC_PARAMS=seed=2026\")\nendforeach()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
+endfunction()
+
+# perfora_add_shards(target labels...): the tests of a program in PERFORA_TEST_SHARDS processes instead of one each. For the sanitizers, where the start of a process
+# takes longer than most tests.
+function(perfora_add_shards target)
+  math(EXPR last "${PERFORA_TEST_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${target}.${shard} COMMAND ${target} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+    set_tests_properties(${target}.${shard} PROPERTIES LABELS "${ARGN}" TIMEOUT 1800
+      ENVIRONMENT "OMP_WAIT_POLICY=passive;RC_PARAMS=seed=2026;GTEST_TOTAL_SHARDS=${PERFORA_TEST_SHARDS};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
 
 # perfora_label_target(target labels...): building tests_<label> builds all that carry the label (the sanitizer builds need no more than that).

@@ -278,7 +278,7 @@ double Schema::get_number(std::string_view full_name) const {
   Value whole = key.get();
   const std::string_view places = split_element(full_name).places;
   const Value& value = places.empty() ? whole : element_at(key, whole, places, origin);
-  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*whole);
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*integer);
   return std::get<double>(value.data);
 }
 
