@@ -13,6 +13,7 @@
 #include "optimize/campaign/sweep.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration_search.h"
+#include "optimize/search/map_import.h"
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_run.h"
 #include "results/describe.h"
@@ -114,8 +115,20 @@ std::string plan_text(const optimize::StudyPlan& plan, int workers) {
                      io::duration(plan.seconds() / workers));
 }
 
+/// What comes from another folder, beside the plan.
+std::string taken_text(const optimize::Study& study) {
+  const optimize::TakenMap& taken = study.taken;
+  return line("taken from " + study.keys.map.from.string(),
+              fmt::format("{} designs, {} runs; they took {} there, which {}", io::count(taken.designs),
+                          io::count(taken.evaluations), io::duration(taken.seconds),
+                          study.keys.budget > 0.0 ? "the budget does not count" : "the plan does not count"));
+}
+
 int check_study_file(const CheckFlags& flags) {
   const optimize::Study study = optimize::read_study(flags.file, flags.common.overrides());
+  const std::filesystem::path& from = study.keys.map.from;
+  if (!from.empty() && study.taken.evaluations == 0)
+    static_cast<void>(optimize::evaluations_of(from, study, {flags.file, 0, "map.from"}));
   const optimize::StudyPlan plan = optimize::plan_of(study);
   const int workers = optimize::useful_workers(study, flags.workers);
   const std::vector<std::string> wishes = results::in_words(study.target, study.start->design().measures);
@@ -139,6 +152,7 @@ int check_study_file(const CheckFlags& flags) {
     text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));
   }
   text += plan_text(plan, workers);
+  if (!from.empty()) text += taken_text(study);
   json object = {
       {"candidates", std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval)},
       {"simulations", plan.runs()},
@@ -148,6 +162,11 @@ int check_study_file(const CheckFlags& flags) {
       {"variables", variables},
       {"arms", arms}};
   if (!optimize::is_plain(study.keys)) object["plan"] = plan_json(plan);
+  if (!from.empty())
+    object["taken"] = {{"from", from.string()},
+                       {"designs", study.taken.designs},
+                       {"runs", study.taken.evaluations},
+                       {"seconds", study.taken.seconds}};
   return report(flags, "study", object, text, *study.start, study.warnings);
 }
 
