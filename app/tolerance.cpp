@@ -32,7 +32,7 @@ optimize::WorkOptions run_options(const ToleranceFlags& flags, const Tolerance& 
   options.cancellation = stop_token();
   options.results_written = report_renewal(options.folder);
   options.make_executor = worker_executor(flags.workers, tolerance.keys.execution,
-                                          tolerance.sweep.workers(flags.workers.workers), flags.common);
+                                          tolerance.sweep.workers(flags.workers.workers), flags.common, options.folder);
   return options;
 }
 

@@ -26,7 +26,7 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
 
 std::vector<std::string> SweepRun::own_files() const {
   return {"journal.jsonl", "result.json", "cases.csv", "runs.csv",       "curves.csv",    "sweep.png", "collapse.png",
-          "report.html",   "runs",        "histories", "tolerance.json", "tolerance.csv"};
+          "report.html",   "runs",        "histories", "tolerance.json", "tolerance.csv", "shared"};
 }
 
 json SweepRun::identity() const {
