@@ -44,8 +44,8 @@ int calibrate(const CalibrateFlags& flags) {
   const int side_by_side = flags.workers.workers > 0 ? flags.workers.workers
                            : execution.workers > 0   ? execution.workers
                                                      : options.threads;
-  options.make_executor =
-      worker_executor(flags.workers, execution, optimize::calibration_workers(calibration, side_by_side), flags.common);
+  options.make_executor = worker_executor(
+      flags.workers, execution, optimize::calibration_workers(calibration, side_by_side), flags.common, options.folder);
   const optimize::CalibrationResult result = optimize::calibrate(calibration, options);
   progress.finish(fmt::format("{}, {}", result.reason, io::duration(result.seconds)));
   const auto record = optimize::to_json(result);

@@ -11,8 +11,10 @@
 #include "io/schema.h"
 #include "io/text.h"
 #include "optimize/campaign/sweep.h"
+#include "optimize/campaign/tolerance.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/search/calibration_search.h"
+#include "optimize/search/map_import.h"
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_run.h"
 #include "results/describe.h"
@@ -114,8 +116,20 @@ std::string plan_text(const optimize::StudyPlan& plan, int workers) {
                      io::duration(plan.seconds() / workers));
 }
 
+/// What comes from another folder, beside the plan.
+std::string taken_text(const optimize::Study& study) {
+  const optimize::TakenMap& taken = study.taken;
+  return line("taken from " + study.keys.map.from.string(),
+              fmt::format("{} designs, {} runs; they took {} there, which {}", io::count(taken.designs),
+                          io::count(taken.evaluations), io::duration(taken.seconds),
+                          study.keys.budget > 0.0 ? "the budget does not count" : "the plan does not count"));
+}
+
 int check_study_file(const CheckFlags& flags) {
   const optimize::Study study = optimize::read_study(flags.file, flags.common.overrides());
+  const std::filesystem::path& from = study.keys.map.from;
+  if (!from.empty() && study.taken.evaluations == 0)
+    static_cast<void>(optimize::evaluations_of(from, study, {flags.file, 0, "map.from"}));
   const optimize::StudyPlan plan = optimize::plan_of(study);
   const int workers = optimize::useful_workers(study, flags.workers);
   const std::vector<std::string> wishes = results::in_words(study.target, study.start->design().measures);
@@ -139,6 +153,7 @@ int check_study_file(const CheckFlags& flags) {
     text += line("arm " + arm.name, fmt::format("{} candidates", arm.maxeval));
   }
   text += plan_text(plan, workers);
+  if (!from.empty()) text += taken_text(study);
   json object = {
       {"candidates", std::int64_t{study.keys.maxeval} + (study.keys.refine.empty() ? 0 : study.keys.refine_maxeval)},
       {"simulations", plan.runs()},
@@ -148,13 +163,18 @@ int check_study_file(const CheckFlags& flags) {
       {"variables", variables},
       {"arms", arms}};
   if (!optimize::is_plain(study.keys)) object["plan"] = plan_json(plan);
+  if (!from.empty())
+    object["taken"] = {{"from", from.string()},
+                       {"designs", study.taken.designs},
+                       {"runs", study.taken.evaluations},
+                       {"seconds", study.taken.seconds}};
   return report(flags, "study", object, text, *study.start, study.warnings);
 }
 
-int check_sweep(const CheckFlags& flags) {
-  const optimize::Sweep sweep = optimize::read_sweep(flags.file, flags.common.overrides(), flags.only);
+/// `kind`: "sweep" or "tolerance".
+int check_cases(const CheckFlags& flags, const char* kind, const optimize::Sweep& sweep) {
   json cases = json::array();
-  std::string text = "Sweep\n";
+  std::string text = "Cases\n";
   double seconds = 0.0, longest = -1.0, most_memory = 0.0;
   int described = 0;  // the case that takes longest stands for all; read_sweep() sees that one can be run
   std::optional<optimize::DesignFile> dearest;
@@ -170,7 +190,7 @@ int check_sweep(const CheckFlags& flags) {
     const optimize::DesignEstimate estimate = optimize::estimate_design(design, 1);
     const double each = estimate.seconds;
     most_memory = std::max(most_memory, estimate.memory_bytes);
-    const bool counted = !designs.insert(one.request(0).full_key()).second;
+    const bool counted = !designs.insert(optimize::simulation_key(one.request(0))).second;
     text += line(name, fmt::format("{} ({})", one.label, counted ? "as one before" : io::duration(each)));
     if (!counted) seconds += each * sweep.keys.replicates;
     if (each <= longest) continue;
@@ -184,7 +204,7 @@ int check_sweep(const CheckFlags& flags) {
   text += line(fmt::format("time with {} at once, roughly", workers), io::duration(seconds));
   const json object = {
       {"cases", cases}, {"simulations", sweep.runs()}, {"seconds", seconds}, {"described_case", described}};
-  return report(flags, "sweep", object, text, dearest.value(), sweep.warnings,
+  return report(flags, kind, object, text, dearest.value(), sweep.warnings,
                 fmt::format(" of case {}, the longest", described), most_memory);
 }
 
@@ -231,10 +251,14 @@ void add_check(CLI::App& program, int& exit_code) {
     if (!flags->only.empty() && kind != "sweep")
       throw io::InputError({flags->file, 0, "--only"}, "chooses cases of a sweep, and this is none", "",
                            "leave it out");
-    exit_code = kind == "study"         ? check_study_file(*flags)
-                : kind == "sweep"       ? check_sweep(*flags)
-                : kind == "calibration" ? check_calibration(*flags)
-                                        : check_design(*flags);
+    exit_code =
+        kind == "study" ? check_study_file(*flags)
+        : kind == "sweep"
+            ? check_cases(*flags, "sweep", optimize::read_sweep(flags->file, flags->common.overrides(), flags->only))
+        : kind == "tolerance"
+            ? check_cases(*flags, "tolerance", optimize::read_tolerance(flags->file, flags->common.overrides()).sweep)
+        : kind == "calibration" ? check_calibration(*flags)
+                                : check_design(*flags);
   });
 }
 

@@ -14,6 +14,9 @@ void add_test(CLI::App& program, int& exit_code);
 void add_optimize(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_sweep(CLI::App& program, int& exit_code);
+void add_tolerance(CLI::App& program, int& exit_code);
+/// `work`, `ask` and `tell`.
+void add_shared(CLI::App& program, int& exit_code);
 void add_correlate(CLI::App& program, int& exit_code);
 void add_calibrate(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);

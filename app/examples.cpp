@@ -21,7 +21,13 @@ constexpr std::pair<const char*, const char*> examples[] = {
      "perfora optimize designs/study-quick.toml -o out/study-quick\n"
      "  perfora optimize designs/study-quick.toml -o out/study-quick --resume\n"
      "  perfora optimize designs/study-quick.toml --map out/study-quick-map -o out/study-mapped"},
+    {"work", "perfora work out/study-shared"},
+    {"ask", "perfora ask out/study-shared -o job.json"},
+    {"tell", "perfora tell out/study-shared job.json answer.jsonl"},
     {"sweep", "perfora sweep designs/sweep-quick.toml -o out/sweep-quick"},
+    {"tolerance",
+     "perfora tolerance designs/tolerance-quick.toml -o out/tolerance-quick\n"
+     "  perfora tolerance out/study-quick --set tolerance.hole_size=\"0.3 mm\" -o out/study-tolerance"},
     {"correlate", "perfora correlate out/fine out/coarse -o out/ranks.png"},
     {"check", "perfora check designs/study.toml"},
     {"show", "perfora show out/quick.h5"},

@@ -37,6 +37,8 @@ int run(int argc, char** argv) {
   app::add_map(program, exit_code);
   app::add_optimize(program, exit_code);
   app::add_sweep(program, exit_code);
+  app::add_tolerance(program, exit_code);
+  app::add_shared(program, exit_code);
   app::add_correlate(program, exit_code);
   app::add_check(program, exit_code);
   app::add_show(program, exit_code);

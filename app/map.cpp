@@ -35,9 +35,10 @@ optimize::WorkOptions run_options(const MapFlags& flags, const optimize::Study& 
   options.command_line = command_line();
   options.cancellation = stop_token();
   const std::int64_t together = std::int64_t{study.keys.map.designs} * study.keys.map.replicates;
-  options.make_executor = worker_executor(
-      flags.workers, study.keys.execution,
-      optimize::workers_for(flags.workers.workers, study.keys.execution.workers, together), flags.common);
+  options.make_executor =
+      worker_executor(flags.workers, study.keys.execution,
+                      optimize::workers_for(flags.workers.workers, study.keys.execution.workers, together),
+                      flags.common, options.folder);
   return options;
 }
 

@@ -39,8 +39,9 @@ optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::St
   options.command_line = command_line();
   options.cancellation = stop_token();
   options.results_written = report_renewal(options.folder);
-  options.make_executor = worker_executor(flags.workers, study.keys.execution,
-                                          optimize::useful_workers(study, flags.workers.workers), flags.common);
+  options.make_executor =
+      worker_executor(flags.workers, study.keys.execution, optimize::useful_workers(study, flags.workers.workers),
+                      flags.common, options.folder);
   return options;
 }
 

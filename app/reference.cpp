@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "optimize/campaign/sweep.h"
+#include "optimize/campaign/tolerance.h"
 #include "optimize/evaluate/design.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"
@@ -15,7 +16,8 @@ void add_reference(CLI::App& program, int& exit_code) {
   command->callback([&exit_code] {
     print_text("# Keys of a design file\n\n" + optimize::DesignFile().schema().reference() +
                "\n# Keys of a study file\n\n" + optimize::study_reference() + "\n# Keys of a sweep file\n\n" +
-               optimize::sweep_reference() + "\n# Keys of a calibration file\n\n" + optimize::calibration_reference());
+               optimize::sweep_reference() + "\n# Keys of a tolerance analysis\n\n" + optimize::tolerance_reference() +
+               "\n# Keys of a calibration file\n\n" + optimize::calibration_reference());
     exit_code = exit_ok;
   });
 }

@@ -33,8 +33,8 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
   options.keep_run_files = sweep.keys.run_files;
   options.cancellation = stop_token();
   options.results_written = report_renewal(options.folder);
-  options.make_executor =
-      worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers), flags.common);
+  options.make_executor = worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers),
+                                          flags.common, options.folder);
   return options;
 }
 

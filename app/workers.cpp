@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "io/progress.h"
+#include "optimize/campaign/shared_folder.h"
 
 namespace perfora::app {
 
@@ -28,11 +29,15 @@ void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& 
                       what))
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  command.add_flag("--shared", flags.shared,
+                   "Evaluate nothing here: leave it to `perfora work DIR` on any host that sees the folder");
 }
 
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
                                                                      const optimize::ExecutionKeys& of_file,
-                                                                     int workers, const CommonFlags& common) {
+                                                                     int workers, const CommonFlags& common,
+                                                                     const std::filesystem::path& folder) {
+  if (flags.shared) return [folder] { return optimize::make_shared_executor(folder); };
   return optimize::worker_processes({std::filesystem::read_symlink("/proc/self/exe"), workers, common.thread_count(),
                                      flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit,
                                      common.memory_allowed()});

@@ -15,21 +15,23 @@
 
 namespace perfora::app {
 
-/// --workers and --time-limit; 0: not given.
+/// --workers, --time-limit and --shared; 0: not given.
 struct WorkerFlags {
   int workers = 0;
   double time_limit = 0.0;  ///< s
+  bool shared = false;
 };
 /// --workers alone; `what` names the file that says it otherwise ("study").
 void add_workers_flag(CLI::App& command, int& workers, const std::string& what);
-/// Both flags.
+/// All of these flags.
 void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& what);
 
-/// Makes an executor of `workers` child processes that share the threads and the memory of `common`. `of_file`: what
-/// the file says where the flags do not.
+/// Makes an executor of `workers` child processes that share the threads and the memory of `common`, or one that leaves
+/// the evaluations to others that see `folder`. `of_file`: what the file says where the flags do not.
 std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const WorkerFlags& flags,
                                                                      const optimize::ExecutionKeys& of_file,
-                                                                     int workers, const CommonFlags& common);
+                                                                     int workers, const CommonFlags& common,
+                                                                     const std::filesystem::path& folder);
 
 /// Tells of work that has stopped in its folder, and what the surroundings did where they ended it; the exit code.
 int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,

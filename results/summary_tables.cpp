@@ -93,6 +93,34 @@ std::string sweep_table(const json& sweep) {
   return text + (compared ? "; in brackets the change to case 0\n" : "\n");
 }
 
+std::string tolerance_table(const json& tolerance) {
+  std::string text;
+  const auto add = [&](const std::string& label, const json& one) {
+    const std::string left_out = text_in(one, "left_out"), problem = text_in(one, "problem");
+    const std::string outcome = !left_out.empty()  ? "left out: " + left_out
+                                : !problem.empty() ? "cannot be run: " + problem
+                                                   : text_in(one, "outcome", "not run yet");
+    const double failed = number_in(one, "failed");
+    text += fmt::format(
+        "{}: {}{}\n", label, outcome,
+        failed > 0.0 ? fmt::format(" ({} of {} blocks failed)", io::count(failed), io::count(number_in(one, "blocks")))
+                     : "");
+    for (const json& wish : list_in(one, "wishes")) {
+      const io::Dimension dimension = dimension_of(text_in(entry(wish), "measure"));
+      const json& change = object_in(wish, "change");
+      const double mean = number_in(change, "mean"), half = number_in(change, "confidence_95");
+      std::string value = text_in(wish, "text");
+      if (std::isfinite(mean))
+        value += "; change " + (std::isfinite(half) ? io::quantities({mean, half}, dimension, " +- ")
+                                                    : io::quantity(mean, dimension));
+      text += line_text(text_in(wish, "outcome"), value);
+    }
+  };
+  add("undisturbed", required_object(tolerance, "undisturbed"));
+  for (const json& one : required_list(tolerance, "deviations")) add(text_in(entry(one), "label"), one);
+  return text + "change: to the undisturbed block of the same seeds, mean +- half of its 95 % interval\n";
+}
+
 std::string targets_table(const json& targets) {
   if (targets.empty()) return {};
   std::string text = fmt::format("  {:<26} {:>14} {:>14} {:>10}\n", "", "wanted", "reached", "");

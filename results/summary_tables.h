@@ -12,6 +12,8 @@ std::string statistics_table(const nlohmann::json& statistics);
 /// A line a case: number, label, completed runs, the results that the sweep shows with half of their 95 % interval and,
 /// where there is a case 0, their change to it. `sweep` is perfora.sweep/1.
 std::string sweep_table(const nlohmann::json& sweep);
+/// A line a deviation and wish: outcome, mean with its interval, paired change. perfora.tolerance/1.
+std::string tolerance_table(const nlohmann::json& tolerance);
 /// What was wanted of a material, and what was reached. `targets` of perfora.calibrate/1.
 std::string targets_table(const nlohmann::json& targets);
 /// The stiffness as three lines of a matrix, in one unit; nothing where it is not known. `stiffness` of

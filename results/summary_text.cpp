@@ -232,6 +232,7 @@ std::string summary_text(const json& object, const KeyDimension& key_dimension, 
       {"perfora.elastic/1", elastic_text},
       {"perfora.ensemble/1", [](const json& o) { return statistics_table(required_object(o, "statistics")); }},
       {"perfora.sweep/1", [](const json& o) { return performance_text(o) + sweep_table(o); }},
+      {"perfora.tolerance/1", [](const json& o) { return performance_text(o) + tolerance_table(o); }},
       {"perfora.optimize/1", [&](const json& o) { return optimize_text(o, key_dimension); }},
       {"perfora.map/1", map_text},
       {"perfora.calibrate/1", [&](const json& o) { return calibrate_text(o, key_dimension); }},
@@ -243,7 +244,7 @@ std::string summary_text(const json& object, const KeyDimension& key_dimension, 
     throw io::InputError(
         {source, 0, ""},
         schema.empty() ? "holds no result of perfora" : "has no summary: its schema is " + io::in_quotes(schema),
-        "results of pack, evaluate, sweep, optimize, calibrate, test and check can be shown");
+        "results of pack, evaluate, sweep, tolerance, optimize, calibrate, test and check can be shown");
   try {
     return head_text(object) + printer->second(object);
   } catch (const DamagedSummary& damaged) {

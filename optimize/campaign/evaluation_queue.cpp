@@ -14,6 +14,7 @@
 #include "io/progress.h"
 #include "io/text.h"
 #include "optimize/campaign/campaign.h"
+#include "optimize/campaign/shared_folder.h"
 #include "results/history_file.h"
 #include "results/json.h"
 #include "results/record_reading.h"
@@ -275,6 +276,7 @@ bool EvaluationQueue::run(Campaign& campaign) {
     written = Clock::now();
   }
   if (executor) executor->stop();
+  if (!stopped) SharedFolder(options_.folder).end();
   if (!stopped && skipped_.empty()) clean_folder();
   std::error_code ignored;
   std::filesystem::remove(options_.folder / runs_folder, ignored);  // Where nothing is left in it.

@@ -13,6 +13,7 @@
 #include "optimize/campaign/evaluation_queue.h"
 #include "optimize/campaign/table_file.h"
 #include "results/measure_table.h"
+#include "solver/grade.h"
 
 namespace perfora::optimize {
 namespace {
@@ -302,6 +303,14 @@ struct Reader {
 
 }  // namespace
 
+std::string simulation_key(const Request& request) {
+  Design similar = *request.design;
+  similar.solver = solver::at_grade_one(similar.solver);
+  Request one = request;
+  one.design = std::make_shared<const Design>(std::move(similar));
+  return one.full_key();
+}
+
 int Sweep::workers(int asked) const {
   return workers_for(asked, keys.execution.workers, runs());
 }
@@ -309,7 +318,7 @@ int Sweep::workers(int asked) const {
 std::int64_t Sweep::runs() const {
   std::set<std::string> designs;
   for (const SweepCase& one : cases)
-    if (one.problem.empty()) designs.insert(one.request(0).full_key());
+    if (one.problem.empty()) designs.insert(simulation_key(one.request(0)));
   return static_cast<std::int64_t>(designs.size()) * keys.replicates;
 }
 

@@ -33,10 +33,17 @@ struct SweepCase {
   std::string group;
   std::vector<DesignChange> settings;    ///< beyond the design and [set]
   std::shared_ptr<const Design> design;  ///< resolved
-  std::string problem;                   ///< why it cannot be run; empty: it can
+  /// Instead of `design`, one a replicate: blocks that differ from each other. Empty: they do not.
+  std::vector<std::shared_ptr<const Design>> of_replicate;
+  std::string problem;  ///< why it cannot be run; empty: it can
 
-  Request request(int replicate) const { return {design, replicate, 0.0, {}}; }
+  Request request(int replicate) const {
+    return {of_replicate.empty() ? design : of_replicate.at(static_cast<std::size_t>(replicate)), replicate, 0.0, {}};
+  }
 };
+
+/// Names the simulation that answers a request: designs that differ in the grade of their material alone share it.
+std::string simulation_key(const Request& request);
 
 /// A sweep, read and checked. Copies share the design.
 struct Sweep {
@@ -53,7 +60,7 @@ struct Sweep {
   std::vector<std::string> warnings;
 
   int workers(int asked) const;  ///< `asked`, or keys.workers, or one a processor, but not more than there are runs
-  std::int64_t runs() const;     ///< different designs that can be run x replicates
+  std::int64_t runs() const;     ///< simulations, at most: different designs that can be run x replicates
 };
 
 /// Reads a sweep file and the design it names. Cases: every row of [rows] with every combination of [grid], then the

@@ -17,7 +17,7 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
     std::vector<Run>& runs = runs_.emplace_back();
     for (int replicate = 0; one.problem.empty() && replicate < sweep_.keys.replicates; ++replicate) {
       const Request request = one.request(replicate);
-      runs.push_back({{request.key(), request, one.label}, request.full_key()});
+      runs.push_back({{request.key(), request, one.label}, simulation_key(request)});
     }
   }
   options.execution = sweep_.keys.execution;
@@ -25,8 +25,8 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
 }
 
 std::vector<std::string> SweepRun::own_files() const {
-  return {"journal.jsonl", "result.json",  "cases.csv",   "runs.csv", "curves.csv",
-          "sweep.png",     "collapse.png", "report.html", "runs",     "histories"};
+  return {"journal.jsonl", "result.json", "cases.csv", "runs.csv",       "curves.csv",    "sweep.png", "collapse.png",
+          "report.html",   "runs",        "histories", "tolerance.json", "tolerance.csv", "shared"};
 }
 
 json SweepRun::identity() const {
@@ -53,12 +53,12 @@ const Evaluation* SweepRun::completed(const SweepCase& one, int replicate) const
 
 std::vector<Asked> SweepRun::pending(const Answers& answers) {
   std::vector<Asked> asked;
-  std::set<std::string> seen;  // Cases that come to the same design are one run.
+  std::set<std::string> seen;  // Cases that come to the same simulation are one run.
   for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
     for (const SweepCase& one : sweep_.cases) {
       if (!one.problem.empty()) continue;
       const Run& run = run_of(one, replicate);
-      if (!answer_for(run.asked.request, run.asked.key, answers) && seen.insert(run.full_key).second)
+      if (!answer_for(run.asked.request, run.asked.key, answers) && seen.insert(run.simulation).second)
         asked.push_back(run.asked);
     }
   remaining_ = static_cast<std::int64_t>(asked.size());
@@ -77,10 +77,10 @@ std::string SweepRun::on_answer(const Asked& asked, const Evaluation& evaluation
 }
 
 CampaignEnd SweepRun::finished() {
-  std::set<std::string> reached;  // by full key: cases that come to the same design are one run
+  std::set<std::string> reached;  // cases that come to the same simulation are one run
   for (const SweepCase& one : sweep_.cases)
     for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
-      if (completed(one, replicate)) reached.insert(run_of(one, replicate).full_key);
+      if (completed(one, replicate)) reached.insert(run_of(one, replicate).simulation);
   return {reached.empty() ? results::RunStatus::failed : results::RunStatus::completed,
           fmt::format("{} of {} runs completed", reached.size(), sweep_.runs())};
 }

@@ -38,7 +38,7 @@ class SweepRun final : public Campaign {
  private:
   struct Run {
     Asked asked;
-    std::string full_key;  ///< cases that come to the same design are one run
+    std::string simulation;  ///< cases that come to the same one are one run
   };
   /// One replicate of a case that can be run.
   const Run& run_of(const SweepCase& one, int replicate) const;

@@ -78,6 +78,11 @@ std::vector<const Evaluation*> Driver::View::evaluations(const Candidate& candid
   return known;
 }
 
+void Driver::View::tell(const Candidate& candidate) {
+  store.observe(candidate);
+  plan.told.push_back(&candidate);
+}
+
 void Driver::View::take(const Visit& visit) {
   if (visit.answered)
     consider(visit);
@@ -126,7 +131,7 @@ bool Driver::View::run_map() {
     if (open) evaluations(candidate, 0, replicates, study.map_fidelity);
     finished = finished && !open;
     if (visit.answered || open) plan.map.push_back(std::move(visit));
-    store.observe(candidate);
+    tell(candidate);
   };
   for (const BatchPoint& one : points) add(book.at(one.arm, study.values_at(one.point)), true);
   for (const Candidate* candidate : driver.told_) add(*candidate, false);
@@ -243,7 +248,7 @@ Plan Driver::plan_map(const Answers& answers) {
 Plan Driver::plan(const Answers& answers) {
   View view{study_, book_, *this, CandidateStore(study_, book_, answers)};
   view.plan.start = view.store.visit(book_.start());
-  view.store.observe(*view.plan.start.candidate);
+  view.tell(*view.plan.start.candidate);
   if (!search_ended() || view.plan.start.answered) view.take(view.plan.start);
   if (!view.run_map()) return std::move(view.plan);
   SearchStage first = stage_of(study_);

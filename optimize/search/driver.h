@@ -62,6 +62,9 @@ struct Plan {
   std::vector<Visit> map;          ///< its designs, at its fidelity and replicates; the study's own first
   int map_tried = 0;               ///< points looked at for the map; 0: not known
   bool map_finished = false;
+  /// Designs that a model learns from beside those of `traces`: the start and all of the map, those taken from another
+  /// folder among them.
+  std::vector<const Candidate*> told;
   std::vector<Trace> traces;        ///< one an arm, then the second stage
   Visit start;                      ///< the start design with the replicates of the search
   const Candidate* best = nullptr;  ///< recommended: of everything simulated so far; nullptr: nothing valid yet

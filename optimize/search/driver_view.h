@@ -31,6 +31,7 @@ struct Driver::View {
                                              std::size_t fidelity = 0);
 
   // driver.cpp
+  void tell(const Candidate& candidate);
   void take(const Visit& visit);
   void consider(const Visit& visit);
   bool run_map();

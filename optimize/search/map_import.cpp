@@ -12,6 +12,7 @@
 
 #include "io/text.h"
 #include "optimize/campaign/evaluation_queue.h"
+#include "optimize/search/map_plan.h"
 #include "optimize/search/study_space.h"
 #include "results/campaign_folder.h"
 #include "results/record_reading.h"
@@ -114,6 +115,27 @@ std::vector<const Candidate*> designs_of(const std::vector<json>& events, const 
     return std::tie(a->arm, a->values) < std::tie(b->arm, b->values);
   });
   return found;
+}
+
+TakenMap taken_map(const Study& study, const io::Origin& origin) {
+  const std::vector<json> events = evaluations_of(study.keys.map.from, study, origin);
+  CandidateBook book(study);
+  TakenMap taken;
+  taken.designs = static_cast<int>(designs_of(events, study, book).size());
+  taken.evaluations = static_cast<int>(events.size());
+  std::set<std::string> known;
+  DesignTexts designs;
+  for (const json& event : events) {
+    taken.seconds += event.value("seconds", 0.0);
+    if (event.contains("request")) known.insert(request_from_json(event.at("request"), &designs).key());
+  }
+  const MapKeys& keys = study.keys.map;
+  for (const BatchPoint& one : choose_map(study, book, keys.designs).points) {
+    const Candidate& candidate = book.at(one.arm, study.values_at(one.point));
+    for (int replicate = 0; replicate < keys.replicates; ++replicate)
+      taken.map_runs += known.contains(book.key(candidate, replicate, study.map_fidelity));
+  }
+  return taken;
 }
 
 int tell_driver(Driver& driver, const Study& study, const std::vector<json>& events, const std::string& kind) {

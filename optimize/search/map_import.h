@@ -21,6 +21,9 @@ std::vector<nlohmann::json> evaluations_of(const std::filesystem::path& folder, 
 std::vector<const Candidate*> designs_of(const std::vector<nlohmann::json>& events, const Study& study,
                                          CandidateBook& book);
 
+/// What a study would take from the folder in its map.from. Throws io::InputError as evaluations_of() does.
+TakenMap taken_map(const Study& study, const io::Origin& origin);
+
 /// Gives a driver what the journal of its folder (events of `kind`: "study" or "map") holds beside the evaluations:
 /// batches, an end before the time, designs of other folders. Where the target was changed, the candidates from before
 /// are designs like those of a map, and their batches are done with. Returns how many evaluations are of such designs.

@@ -11,6 +11,7 @@
 
 #include "io/text.h"
 #include "optimize/campaign/table_file.h"
+#include "optimize/search/map_import.h"
 #include "optimize/search/searcher.h"
 #include "optimize/search/study_arms.h"
 #include "optimize/search/study_fidelities.h"
@@ -174,6 +175,8 @@ struct Reader {
                            "add designs = 96 under [map], or give --designs 96");
     if (keys.race.finalists > 0) keys.race.keep = std::min(keys.race.keep, keys.race.finalists);
     if (use == StudyUse::map) return;
+    if (!keys.map.from.empty() && std::filesystem::exists(keys.map.from / "journal.jsonl"))
+      study.taken = taken_map(study, origin("map.from"));
     if (keys.budget > 0.0)
       spend_budget(study, {is_default("map.designs"), is_default("race.finalists")}, origin("study.budget"));
     allocate(study, origin("study.allocation"));

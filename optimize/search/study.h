@@ -86,6 +86,13 @@ struct Arm {
       1;  ///< of its search; from the search seed and the arm's name, so that arms do not change each other
 };
 
+/// What the folder in map.from holds of a study. No budget counts it: it was paid for there.
+struct TakenMap {
+  int designs = 0, evaluations = 0;
+  double seconds = 0.0;       ///< wall time that the evaluations took
+  std::int64_t map_runs = 0;  ///< runs of this study's own map that are among them
+};
+
 /// A study, read and checked. Copies share the design.
 struct Study {
   std::filesystem::path file;
@@ -102,6 +109,7 @@ struct Study {
   std::size_t map_fidelity = 0, verify_fidelity = 0;  ///< places among them
   std::vector<double> costs;                          ///< s, time of a run on one processor at each; 0: not measured
   std::map<std::string, std::string> ladder;          ///< "fidelity.NAME.KEY" and its value, of all that the file names
+  TakenMap taken;                                     ///< empty where the folder is not there (any more)
   std::vector<std::string> warnings;
 
   /// Everything that decides the result, key by key, as text ("study.algorithm", "variables.layout.diameter",

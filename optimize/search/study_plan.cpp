@@ -66,12 +66,14 @@ StudyPlan plan_of(const Study& study) {
   const auto add = [&](const PlannedStage& one) {
     if (one.runs > 0) plan.stages.push_back(one);
   };
-  add(stage("map", study.map_fidelity, keys.map.designs, std::int64_t{keys.map.designs} * keys.map.replicates));
+  add(stage("map", study.map_fidelity, keys.map.designs,
+            std::int64_t{keys.map.designs} * keys.map.replicates - study.taken.map_runs));
   if (keys.maxeval == 0) return plan;
   add(stage("start", 0, 1, keys.replicates));
   add(stage("search", 0, keys.maxeval, std::int64_t{keys.maxeval} * keys.replicates));
-  if (keys.map.designs > 0) {
-    const int taken = std::min(keys.map.designs, std::max(1, keys.race.finalists));
+  // Of a map of another folder, too: its replicates are taken to be as many as those of this study's map.
+  if (const int mapped = std::max(keys.map.designs, study.taken.designs); mapped > 0) {
+    const int taken = std::min(mapped, std::max(1, keys.race.finalists));
     const int known = study.map_fidelity == 0 ? std::min(keys.map.replicates, keys.replicates) : 0;
     add(stage("best of the map", 0, taken, std::int64_t{taken} * (keys.replicates - known)));
   }
@@ -147,6 +149,8 @@ json planned(const Study& study) {
           {"finalists", keys.race.finalists},
           {"keep", keys.race.keep},
           {"seconds", plan.seconds()},
+          {"taken_evaluations", study.taken.evaluations},
+          {"taken_seconds", study.taken.seconds},
           {"stages", stages}};
 }
 

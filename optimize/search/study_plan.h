@@ -22,7 +22,7 @@ struct PlannedStage {
   double seconds() const { return run_seconds * static_cast<double>(runs); }
 };
 
-/// The stages with something to run, in their order.
+/// The stages with something to run, in their order. What is taken from another folder is not run, so it is in none.
 struct StudyPlan {
   std::vector<PlannedStage> stages;
   std::int64_t runs() const;

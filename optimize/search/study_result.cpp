@@ -168,12 +168,14 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
   return line + fmt::format(",{},{}\n", visit.detail.replicates, visit.detail.failed);
 }
 
-/// What the model says of all that was evaluated.
+/// What the model says of all that was evaluated, the designs of the map among them.
 json model_of(StudyRun& run) {
+  CandidateStore store(run.study(), run.book(), run.answers());
+  for (const Candidate* one : run.plan().told) store.observe(*one);
   std::vector<const Candidate*> visited;
   for (const Trace& trace : run.plan().traces)
     for (const Visit& visit : trace.visits) visited.push_back(visit.candidate);
-  return model_json(CandidateStore(run.study(), run.book(), run.answers()), visited);
+  return model_json(store, visited);
 }
 
 }  // namespace

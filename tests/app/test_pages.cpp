@@ -39,8 +39,9 @@ TEST_F(CommandLine, PlotDrawsADesignBeforeAnyRun) {
 
 TEST_F(CommandLine, EveryCommandHasExamples) {
   const std::string commands = run("--help").output;
-  for (const char* name : {"pack", "evaluate", "map", "optimize", "sweep", "correlate", "test", "calibrate", "check",
-                           "show", "plot", "report", "movie", "completion"}) {
+  for (const char* name :
+       {"pack", "evaluate", "map", "optimize", "sweep", "tolerance", "work", "ask", "tell", "correlate", "test",
+        "calibrate", "check", "show", "plot", "report", "movie", "completion"}) {
     EXPECT_THAT(commands, HasSubstr(std::string("\n  ") + name));
     EXPECT_THAT(run(std::string(name) + " --help").output, HasSubstr("Examples:\n  ")) << name;
   }

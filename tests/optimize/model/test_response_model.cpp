@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "optimize/model/target_answers.h"
 #include "optimize/search/objective.h"
 #include "tests/optimize/model/synthetic_designs.h"
@@ -111,6 +113,39 @@ TEST(ResponseModel, FailedRunsTellWhereDesignsFail) {
   const auto at = [&](double x) { return model.inputs_of(SyntheticDesigns::traits(x, 0.5)); };
   EXPECT_GT(model.success(at(0.3)), 0.9);
   EXPECT_LT(model.success(at(0.95)), 0.2);
+}
+
+// A block that keeps a third of its first peak fails by a front, one that keeps a fiftieth throughout. Which is which
+// depends on x alone.
+TEST(ResponseModel, TellsFrontsFromCracksThroughout) {
+  SyntheticDesigns designs(40, 2, 0.05);
+  int fronts = 0;
+  for (KnownDesign& design : designs.known) {
+    const bool front = design.traits.values[0] < 0.5;
+    fronts += front;
+    for (results::Evaluation& run : designs.runs)
+      if (std::find(design.replicates.begin(), design.replicates.end(), &run) != design.replicates.end())
+        run.summary.stress_drop_ratio = front ? 1.0 / 3.0 : 0.02;
+  }
+  ASSERT_EQ(fronts, 20) << "half of the points of a Sobol sequence";
+  const ResponseModel model(designs.known, synthetic_target(), synthetic_frame(synthetic_target()), lbfgs);
+  ASSERT_TRUE(model.made());
+  const auto front_at = [&](double x, double y) {
+    return model.front(model.inputs_of(SyntheticDesigns::traits(x, y)));
+  };
+  for (const double y : {0.2, 0.5, 0.8}) {
+    ASSERT_TRUE(front_at(0.2, y));
+    EXPECT_GT(*front_at(0.2, y), 0.85) << y;
+    EXPECT_LT(*front_at(0.8, y), 0.15) << y;
+    EXPECT_NEAR(*front_at(0.5, y), 0.5, 0.35) << y;
+  }
+  // The class is an input of every response.
+  const Inputs one = model.inputs_of(SyntheticDesigns::traits(0.2, 0.5));
+  EXPECT_EQ(one.points(0, one.points.cols() - 1), *model.front(one));
+  // Of one class alone, or nearly so, nothing is told apart.
+  for (results::Evaluation& run : designs.runs) run.summary.stress_drop_ratio = 0.5;
+  const ResponseModel alike(designs.known, synthetic_target(), synthetic_frame(synthetic_target()), lbfgs);
+  EXPECT_FALSE(alike.front(alike.inputs_of(SyntheticDesigns::traits(0.2, 0.5))));
 }
 
 // Coverage of 95 % that is really less, more by chance, and really more.

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "optimize/campaign/sweep.h"
+#include "optimize/campaign/tolerance.h"
 #include "optimize/search/calibration.h"
 #include "optimize/search/study.h"
 #include "results/describe.h"
@@ -25,6 +25,8 @@ TEST(ExampleDesigns, EveryFileOfTheFolderIsValid) {
         static_cast<void>(read_study(entry.path()));
       else if (kind == "sweep")
         for (const SweepCase& one : read_sweep(entry.path()).cases) EXPECT_EQ(one.problem, "") << entry.path();
+      else if (kind == "tolerance")
+        for (const SweepCase& one : read_tolerance(entry.path()).sweep.cases) EXPECT_EQ(one.problem, "") << entry.path();
       else if (kind == "calibration")
         static_cast<void>(read_calibration(entry.path(), {}));
       else

@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -11,6 +13,7 @@
 #include "io/progress.h"
 #include "optimize/search/map_plan.h"
 #include "optimize/search/map_run.h"
+#include "optimize/search/study_plan.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "tests/optimize/search/study_support.h"
@@ -183,10 +186,7 @@ TEST_F(MapTest, AFirstStageIsWhatAMapAloneIs) {
 TEST_F(MapTest, RefusesAnotherSpaceByItsFirstKey) {
   { MapRun(mapped(), options("map")).run(); }
   const auto refusal = [&](const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const Study study = read(text + "[map]\nfrom = \"map\"\n", overrides);
-    const std::string said = input_error([&] { StudyRun(study, options("refused")); });
-    std::filesystem::remove_all(folder / "refused");
-    return said;
+    return input_error([&] { read(text + "[map]\nfrom = \"map\"\n", overrides); });
   };
   const std::string same = study_text("maxeval = 2", map_arms);
   EXPECT_NE(refusal(same, {"material.horizon=2.9"}).find("design.material.horizon is 3 there and 2.9 here"),
@@ -204,6 +204,47 @@ TEST_F(MapTest, RefusesAnotherSpaceByItsFirstKey) {
               StudyRun(study, options("none"));
             }).find("holds no map"),
             std::string::npos);
+}
+
+// What another folder paid for is no part of a plan, and what it took is kept beside it.
+TEST_F(MapTest, ABudgetDoesNotCountWhatIsTaken) {
+  { MapRun(mapped(), options("map")).run(); }
+  const std::string text = study_text("replicates = 2\nfinal_replicates = 0", map_arms) + "[map]\nfrom = \"map\"\n";
+  const Study alone = read(text, {"study.budget=40 h"});
+  EXPECT_EQ(alone.keys.map.designs, 0) << "the map is there";
+  EXPECT_EQ(alone.taken.designs, 10);
+  EXPECT_EQ(alone.taken.evaluations, 20);
+  EXPECT_EQ(alone.taken.map_runs, 0);
+  // Its best designs are run like candidates before the race: a third replicate of each.
+  const StudyPlan third = plan_of(read(text, {"study.budget=40 h", "study.replicates=3", "race.finalists=4"}));
+  const auto stage = std::find_if(third.stages.begin(), third.stages.end(),
+                                  [](const PlannedStage& one) { return one.name == "best of the map"; });
+  ASSERT_NE(stage, third.stages.end());
+  EXPECT_EQ(stage->runs, 4);
+  // Twelve designs are wished, of which the folder has ten: two are run, with two replicates.
+  const Study more = read(text, {"study.budget=40 h", "map.designs=12"});
+  EXPECT_EQ(more.taken.map_runs, 20);
+  const StudyPlan plan = plan_of(more);
+  EXPECT_EQ(plan.stages.front().name, "map");
+  EXPECT_EQ(plan.stages.front().runs, 4);
+  EXPECT_LE(plan.seconds(), 144000.0);
+  EXPECT_EQ(planned(more).at("taken_evaluations"), 20);
+}
+
+// The model of a finished study speaks of every design that was run, those of the map among them.
+TEST_F(MapTest, TheModelOfAFinishedStudyLearnsFromTheMap) {
+  { MapRun(mapped({"map.designs=24", "map.replicates=1"}), options("map")).run(); }
+  StudyRun run(read(study_text("maxeval = 4\nfinal_replicates = 0\nalgorithm = \"model\"", map_arms) +
+                    "[map]\nfrom = \"map\"\n"),
+               options("study"));
+  run.run();
+  int completed = 0;  // one replicate each
+  for (const auto& [key, evaluation] : run.answers()) completed += evaluation.status == results::RunStatus::completed;
+  EXPECT_GT(completed, 20);
+  const nlohmann::json model = to_json(run).at("model");
+  EXPECT_NE(model.at("in_words").get<std::string>().find(fmt::format("{} designs", completed)), std::string::npos)
+      << model.at("in_words");
+  EXPECT_TRUE(model.contains("importance"));
 }
 
 // The other half of one map for all targets: a finished study that goes on with another wish.

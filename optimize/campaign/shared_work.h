@@ -1,0 +1,34 @@
+// What is here: evaluations for a folder of work that another process, perhaps on another host, carries out. What is
+// not: the files between (shared_folder.h).
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "io/cancellation.h"
+#include "optimize/campaign/executor.h"
+
+namespace perfora::optimize {
+
+struct SharedWorkOptions {
+  /// How long to wait for something to do before giving up: for a folder that is not there yet, too.
+  std::chrono::duration<double> patience{600.0};
+  io::Cancellation cancellation;  ///< requested: it ends after the evaluation that is under way has stopped
+  /// Hears of every answer that was delivered. May be empty.
+  std::function<void(const std::string& key, const Answer& answer)> delivered;
+};
+
+/// How it ended.
+enum class SharedEnd {
+  finished,   ///< the work is done: nobody asks any more
+  idle,       ///< nothing came within the patience
+  cancelled,  ///< cancellation was requested
+};
+
+/// Evaluates what the folder asks, one after another, until there is nothing left. `evaluate` as for executors: what it
+/// throws as io::InputError is a failed evaluation, anything else a trouble.
+SharedEnd work_for(const std::filesystem::path& work, const Evaluate& evaluate, const SharedWorkOptions& options);
+
+}  // namespace perfora::optimize
