@@ -137,7 +137,7 @@ void describe(io::Schema& schema, SolverOptions& options) {
   schema.section("output", "What a run file holds.")
       .choice("frames", output.frames,
               {{"none", FrameChoice::none}, {"few", FrameChoice::few}, {"all", FrameChoice::all}},
-              "none; few: start, first peak, every 10 % and the end; all: every 1 % beside those.")
+              "none; few: start, first peak, every 5 % and the end; all: every 1 % beside those.")
       .real_list("frame_strains", output.frame_strains, Dimension::ratio, Range::between(0.0, 0.9),
                  "Strains of frames instead of `frames`.")
       .path("curve", output.curve,

@@ -46,7 +46,7 @@ std::vector<double> frame_strains(const OutputOptions& output, double until) {
     for (const double strain : output.frame_strains)
       if (strain > 0.0 && strain <= until) strains.push_back(strain);
   } else if (output.frames != FrameChoice::none) {
-    const int per_unit = output.frames == FrameChoice::all ? 100 : 10;
+    const int per_unit = output.frames == FrameChoice::all ? 100 : 20;
     for (int k = 1; k < until * per_unit; ++k) strains.push_back(static_cast<double>(k) / per_unit);
     strains.push_back(until);
   }

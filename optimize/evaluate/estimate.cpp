@@ -96,7 +96,7 @@ void estimate_steps(const Design& design, const geometry::PerforationLayout& lay
 double frame_count(const solver::SolverOptions& options) {
   const double until = options.loading.until;
   if (!options.output.frame_strains.empty()) return static_cast<double>(options.output.frame_strains.size());
-  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until / 0.1;
+  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until / 0.05;
   if (options.output.frames == solver::FrameChoice::all) return 2.0 + until / 0.01;
   return 0.0;
 }
