@@ -64,6 +64,7 @@ report::BlockSheet sheet_of_result(const fs::path& path) {
                          "a run, packing or elastic response", "give such a file, or the design");
   report::BlockSheet sheet;
   sheet.layout = geometry::read_layout(file, "/layout");
+  sheet.title = file.has_attribute("/", "title") ? file.attribute_text("/", "title") : path.stem().string();
   if (const auto design = design_in(file)) add_notes(sheet, design->design());
   return sheet;
 }
@@ -71,6 +72,7 @@ report::BlockSheet sheet_of_result(const fs::path& path) {
 report::BlockSheet sheet_of_design(const DrawFlags& flags) {
   const optimize::DesignFile design(flags.input, flags.common.overrides());
   report::BlockSheet sheet;
+  sheet.title = design.title();
   sheet.layout =
       geometry::make_layout(design.design().layout, design.design().seeds.effective(0).layout, &design.schema());
   add_notes(sheet, design.design());
@@ -87,7 +89,7 @@ int draw(const DrawFlags& flags) {
                          ".svg or .dxf", "choose one of these extensions");
   const bool design = lower(input.extension().string()) == ".toml";
   report::BlockSheet sheet = design ? sheet_of_design(flags) : sheet_of_result(input);
-  sheet.title = flags.title.empty() ? input.stem().string() : flags.title;
+  if (!flags.title.empty()) sheet.title = flags.title;
   sheet.source = input.filename().string() + ", perfora " + io::program_version();
   const io::OutputLock lock = claim_new_output(output, flags.common.force);
   const report::Drawing drawing = report::draw_block_sheet(sheet);

@@ -77,7 +77,7 @@ int movie(const MovieFlags& flags) {
   const fs::path folder = output_or_default(flags.output, default_name(flags.input, "-movie"));
   clear_folder(folder, flags.common.force);
   const io::OutputLock lock(folder / film_name);
-  const std::string title = flags.title.empty() ? fs::path(flags.input).stem().string() : flags.title;
+  const std::string title = flags.title.empty() ? results::title_of(run.provenance, flags.input) : flags.title;
   const std::size_t count = report::draw_movie(run, title, folder);
   bool film = false;
   if (is_installed("ffmpeg")) {

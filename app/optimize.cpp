@@ -90,7 +90,6 @@ void draw(const optimize::StudyRun& run) {
   if (fs::exists(folder / "map.json")) draw_map(folder, folder / "map.png");
   if (!fs::exists(folder / "best.h5")) return;
   report::PlotOptions options;
-  options.title = "best design of " + run.study().file.stem().string();
   if (run.study().target.plateau_stress > 0.0) options.target_stress = run.study().target.plateau_stress;
   options.measured = results::read_study_record(folder).measured;
   report::plot_run(folder / "best.h5", folder / "best.png", options);

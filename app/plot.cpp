@@ -12,7 +12,6 @@
 #include "app/measured_curves.h"
 #include "io/error.h"
 #include "io/hdf5.h"
-#include "io/toml.h"
 #include "optimize/evaluate/design.h"
 #include "results/describe.h"
 
@@ -97,15 +96,6 @@ void refuse_curves(const PlotFlags& flags, const std::string& what) {
                          "leave it out, or give runs, an ensemble, a sweep or a study");
 }
 
-/// Free text that a TOML file has at its top as `title`; otherwise the name of the file.
-std::string title_of(const fs::path& file) {
-  for (const io::Entry& entry : io::read_toml(file))
-    if (const std::string* text = std::get_if<std::string>(&entry.value.data);
-        text && entry.key == "title" && !text->empty())
-      return *text;
-  return file.stem().string();
-}
-
 /// A design that was not run: its layout.
 void draw_design(const fs::path& input, const fs::path& output, const PlotFlags& flags) {
   if (const std::string kind = results::kind_of_toml(input); kind != "design")
@@ -118,7 +108,7 @@ void draw_design(const fs::path& input, const fs::path& output, const PlotFlags&
   static_cast<void>(design.validate(optimize::Purpose::block));
   const optimize::Design& d = design.design();
   report::PlotOptions options;
-  options.title = flags.title.empty() ? title_of(input) : flags.title;
+  options.title = flags.title.empty() ? design.title() : flags.title;
   report::plot_layout(geometry::make_layout(d.layout, d.seeds.effective(0).layout, &design.schema()),
                       d.packing.mean_diameter, output, options);
 }
@@ -133,7 +123,8 @@ void draw(const PlotFlags& flags, const fs::path& output) {
   if (flags.inputs.size() > 1 || flags.collapse) {
     std::vector<report::LabelledRun> runs = read_runs(flags);
     if (options.title.empty())
-      options.title = runs.size() > 1 ? fmt::format("{} runs", runs.size()) : input.stem().string();
+      options.title =
+          runs.size() > 1 ? fmt::format("{} runs", runs.size()) : results::title_of(runs.front().run.provenance, input);
     if (runs.size() == 1) runs.front().label.clear();  // the heading says it
     std::vector<std::string> configurations;
     for (const report::LabelledRun& run : runs) configurations.push_back(run.run.provenance.config);

@@ -137,6 +137,13 @@ std::vector<Entry> read_toml(const std::filesystem::path& path) {
   return parse_toml(read_file(path, largest_toml), path.string());
 }
 
+std::string title_in(const std::vector<Entry>& entries) {
+  for (const Entry& entry : entries)
+    if (const std::string* text = std::get_if<std::string>(&entry.value.data); text && entry.key == "title")
+      return *text;
+  return {};
+}
+
 std::optional<Value> parse_toml_value(std::string_view text) {
   constexpr std::string_view line_ends = "\r\n";
   if (text.find_first_of(line_ends) != std::string_view::npos) return std::nullopt;

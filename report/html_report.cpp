@@ -67,8 +67,10 @@ Part of_run(const fs::path& input, const ReportOptions& options) {
     throw io::InputError({input.string(), 0, ""}, "this is no run file, and a report shows runs and folders of work",
                          "", "perfora plot draws packings, material tests and elastic responses");
   Part whole;
-  take_in(whole, "run", run_part(results::read_run(input), {.measured = options.measured}));
+  const results::RunResult run = results::read_run(input);
+  take_in(whole, "run", run_part(run, {.measured = options.measured}));
   whole.facts["kind"] = "run";
+  whole.facts["title"] = results::title_of(run.provenance, input);
   whole.facts["name"] = input.stem().string();
   for (const char* key : {"verdict", "status", "reason", "block"}) whole.facts[key] = whole.facts["run"][key];
   return whole;
@@ -100,6 +102,7 @@ Part of_folder(const fs::path& folder, const ReportOptions& options) {
   }
   whole.facts["kind"] = kind;
   whole.facts["name"] = results::campaign_title(folder);
+  whole.facts["title"] = part.facts.value("title", whole.facts["name"].get<std::string>());
   for (const char* key : {"verdict", "block"})
     if (part.facts.contains(key)) whole.facts[key] = part.facts[key];
   for (const char* key : {"status", "reason"})
@@ -122,7 +125,7 @@ void write_report(const fs::path& input, const fs::path& out, const ReportOption
   if (out.extension() != ".html")
     throw io::InputError({"-o", 0, out.string()}, "the report does not end in .html", "a name such as report.html");
   Part whole = fs::is_directory(input) ? of_folder(input, options) : of_run(input, options);
-  whole.facts["title"] = options.title.empty() ? whole.facts["name"].get<std::string>() : options.title;
+  if (!options.title.empty()) whole.facts["title"] = options.title;
   whole.facts["left_out"] = left_out();
   whole.facts["summary"] = options.summary;
   whole.facts["under_way"] = options.under_way;

@@ -150,7 +150,7 @@ void mark_first_bonds(Canvas& canvas, const Box& box, const results::ElasticResu
 }
 
 void draw_title(Canvas& canvas, const results::ElasticResult& elastic, const PlotOptions& options) {
-  const std::string title = options.title.empty() ? elastic.path.stem().string() : options.title;
+  const std::string title = options.title.empty() ? results::title_of(elastic.provenance, elastic.path) : options.title;
   const TextStyle style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, style), style);
   canvas.text(

@@ -116,7 +116,7 @@ void plot_material_tests(const std::filesystem::path& test_file, const std::file
                          const PlotOptions& options) {
   const results::MaterialResult result = results::read_material_tests(test_file);
   Canvas canvas(out, page_width, page_height);
-  const std::string title = options.title.empty() ? result.path.stem().string() : options.title;
+  const std::string title = options.title.empty() ? results::title_of(result.provenance, result.path) : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, title_style), title_style);
   int replicates = 0;

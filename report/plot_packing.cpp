@@ -90,7 +90,7 @@ void draw_sizes(Canvas& canvas, const geometry::Packing& packing, const Box& box
 
 void draw_packing(const results::PackResult& pack, const std::filesystem::path& out, const PlotOptions& options) {
   Canvas canvas(out, page_width, page_height);
-  const std::string title = options.title.empty() ? pack.path.stem().string() : options.title;
+  const std::string title = options.title.empty() ? results::title_of(pack.provenance, pack.path) : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(title, page_width - 2.0 * page_margin, title_style), title_style);
   canvas.text(page_margin, 88.0,

@@ -66,7 +66,7 @@ CurveMarks marks_of(const results::RunResult& run, const PlotOptions& options) {
 }
 
 void draw_heading(Canvas& canvas, const results::RunResult& run, const PlotOptions& options) {
-  const std::string title = options.title.empty() ? run.path.stem().string() : options.title;
+  const std::string title = options.title.empty() ? results::title_of(run.provenance, run.path) : options.title;
   const TextStyle title_style{.size = 30.0, .bold = true};
   const TextStyle line_style{.size = 17.0, .colour = palette::soft_ink};
   canvas.text(44.0, 56.0, canvas.fit(title, middle + 300.0, title_style), title_style);

@@ -74,6 +74,7 @@ std::string optional_attribute(const io::Hdf5Reader& file, const std::string& na
 
 void write_head(io::Hdf5Writer& file, const char* format, const Provenance& provenance, const nlohmann::json& summary) {
   file.attribute("/", "format", std::string(format));
+  if (!provenance.title.empty()) file.attribute("/", "title", provenance.title);
   file.attribute("/", "program_version", provenance.program_version);
   file.attribute("/", "git_revision", provenance.git_revision);
   file.attribute("/", "compiler", provenance.compiler);
@@ -89,6 +90,7 @@ void write_head(io::Hdf5Writer& file, const char* format, const Provenance& prov
 
 Provenance read_provenance(const io::Hdf5Reader& file) {
   Provenance made;
+  made.title = optional_attribute(file, "title");
   made.program_version = optional_attribute(file, "program_version");
   made.git_revision = optional_attribute(file, "git_revision");
   made.compiler = optional_attribute(file, "compiler");

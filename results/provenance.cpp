@@ -5,6 +5,10 @@
 
 namespace perfora::results {
 
+std::string title_of(const Provenance& provenance, const std::filesystem::path& file) {
+  return provenance.title.empty() ? file.stem().string() : provenance.title;
+}
+
 Provenance provenance_of_this_program() {
   Provenance made;
   made.program_version = io::program_version();

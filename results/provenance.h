@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace perfora::results {
@@ -12,6 +13,7 @@ inline constexpr int results_version = 4;
 
 /// As the attributes of a file tell it; empty or 0 where they say nothing.
 struct Provenance {
+  std::string title;  ///< of the design, as its file has it
   std::string program_version, git_revision, compiler;
   std::string simd;          ///< instruction set of the kernels
   std::string command_line;  ///< as it was typed
@@ -21,6 +23,9 @@ struct Provenance {
   std::int64_t results_version = 0;
   double seconds = 0.0;  ///< wall time
 };
+
+/// The title of what a file holds: that of its design, otherwise the name of the file without its ending.
+std::string title_of(const Provenance& provenance, const std::filesystem::path& file);
 
 /// What this build and `results_version` say; the rest is empty.
 Provenance provenance_of_this_program();

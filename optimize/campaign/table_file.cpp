@@ -28,7 +28,8 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
 TableFile::TableFile(const std::filesystem::path& path, const TableFileForm& form, io::Schema& schema,
                      const std::vector<std::string>& overrides)
     : path_(path), form_(form), schema_(schema) {
-  for (io::Entry& entry : io::read_toml(path)) take(std::move(entry), path.string());
+  std::vector<io::Entry> entries = io::read_toml(path);
+  for (io::Entry& entry : entries) take(std::move(entry), path.string());
   for (const std::string& text : overrides) {
     const std::string section = section_of(text);
     if (among(form_.sections, section))
@@ -43,6 +44,7 @@ TableFile::TableFile(const std::filesystem::path& path, const TableFileForm& for
 void TableFile::take(io::Entry entry, const std::string& source) {
   const std::string table = section_of(entry.key);
   if (table != set_table && !among(form_.tables, table)) {
+    if (entry.key == "title") title_ = io::title_in({entry});
     if (form_.look) form_.look(entry, source);
     return io::apply_entries(schema_, {entry}, source);
   }

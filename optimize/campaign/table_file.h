@@ -39,6 +39,8 @@ class TableFile {
   TableFile(const std::filesystem::path& path, const TableFileForm& form, io::Schema& schema,
             const std::vector<std::string>& overrides);
 
+  /// The file's own title, otherwise its name without the ending.
+  std::string title() const { return title_.empty() ? path_.stem().string() : title_; }
   const std::vector<TableEntry>& entries() const { return entries_; }       ///< in order, without [set]
   const std::vector<TableEntry>& fixed() const { return fixed_; }           ///< of [set]
   const std::vector<std::string>& of_design() const { return of_design_; }  ///< overrides that are the design's
@@ -51,6 +53,7 @@ class TableFile {
   void take(io::Entry entry, const std::string& source);
 
   std::filesystem::path path_;
+  std::string title_;
   TableFileForm form_;
   io::Schema& schema_;
   std::vector<TableEntry> entries_, fixed_;

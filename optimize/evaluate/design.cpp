@@ -67,7 +67,10 @@ DesignFile::DesignFile(const Design& design) : DesignFile() {
 
 DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides) : DesignFile() {
   path_ = path;
-  io::apply_entries(*schema_, material_first(io::read_toml(path)), path.string());
+  const std::vector<io::Entry> entries = io::read_toml(path);
+  io::apply_entries(*schema_, material_first(entries), path.string());
+  title_ = io::title_in(entries);
+  if (title_.empty()) title_ = path.stem().string();
   for (const std::string& text : overrides) schema_->set_override(text);
   // What is wrong with a measured curve is said before a run, not when its picture is drawn.
   if (const std::filesystem::path& curve = design_->solver.output.curve; !curve.empty())
@@ -104,6 +107,7 @@ DesignFile DesignFile::clone() const {
   DesignFile copy(*design_);
   copy.schema_->take_origins(*schema_);
   copy.path_ = path_;
+  copy.title_ = title_;
   return copy;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/layout.h"
@@ -67,6 +68,9 @@ class DesignFile {
   const Design& design() const { return *design_; }
   io::Schema& schema() { return *schema_; }
   const io::Schema& schema() const { return *schema_; }
+  /// What the file has as `title` at its top, otherwise its name without the ending; empty for defaults and text.
+  const std::string& title() const { return title_; }
+  void set_title(std::string title) { title_ = std::move(title); }
   /// The file it was read from; empty for defaults and text.
   const std::filesystem::path& path() const { return path_; }
 
@@ -79,6 +83,7 @@ class DesignFile {
   std::unique_ptr<Design> design_;
   std::unique_ptr<io::Schema> schema_;
   std::filesystem::path path_;
+  std::string title_;
 };
 
 /// `stored`, the resolved configuration in a file or journal, with old names of keys resolved and keys that it lacks at

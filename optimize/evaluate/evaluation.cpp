@@ -140,6 +140,7 @@ double mean_diameter_of(const DesignFile& design, const geometry::Packing& perio
 results::Provenance provenance_of(const DesignFile& design, const Seeds::Effective& seeds,
                                   const std::string& command_line) {
   results::Provenance made = results::provenance_of_this_program();
+  made.title = design.title();
   made.command_line = command_line;
   made.seeds = to_json(seeds).dump();
   made.config = design.schema().to_toml();

@@ -36,7 +36,7 @@ void add_results(const std::vector<const Evaluation*>& runs, results::MapDesign&
 results::MapRecord map_record(const Study& study, CandidateBook& book, const Answers& answers, const Plan& plan) {
   const CandidateStore store(study, book, answers);
   results::MapRecord record;
-  record.title = study.file.stem().string();
+  record.title = study.title;
   record.fidelity = study.fidelities[study.map_fidelity].name;
   record.replicates = study.keys.map.replicates;
   record.tried = plan.map_tried;

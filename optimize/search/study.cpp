@@ -61,6 +61,7 @@ struct Reader {
                              {"variables", "arms", "fidelity"},
                              flatten_allocation};
     tables.emplace(path, form, schema, overrides);
+    study.title = tables->title();
     auto start = tables->start(study.keys.design);
     check_numbers(*start);
     study.warnings = start->validate();

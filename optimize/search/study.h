@@ -96,6 +96,7 @@ struct TakenMap {
 /// A study, read and checked. Copies share the design.
 struct Study {
   std::filesystem::path file;
+  std::string title;  ///< its own, otherwise the name of the file
   StudyKeys keys;
   results::Target target;  ///< of the study, where it says nothing of the design it starts from
   ConstraintKeys constraints;

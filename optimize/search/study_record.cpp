@@ -73,7 +73,7 @@ results::StudyRecord study_record(StudyRun& run) {
   const Study& study = run.study();
   const Plan& plan = run.plan();
   results::StudyRecord record;
-  record.title = study.file.stem().string();
+  record.title = study.title;
   record.subtitle =
       fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
                   study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());

@@ -272,7 +272,8 @@ void write_results(StudyRun& run) {
 }
 
 Evaluation evaluate_best(const StudyRun& run, EvaluateOptions options) {
-  const DesignFile design = design_of(run.study(), *run.plan().best);
+  DesignFile design = design_of(run.study(), *run.plan().best);
+  design.set_title("best design of " + run.study().title);
   options.run_file = run.options().folder / "best.h5";
   options.resume = true;
   const bool there = std::filesystem::exists(options.run_file);

@@ -221,7 +221,8 @@ Part study_part(const results::StudyRecord& record, const fs::path& folder) {
   const json result = result_of(folder);
   const Candidates candidates = read_candidates(folder / "evaluations.csv");
   const std::vector<Evaluated> evaluated = evaluated_in(folder);
-  part.facts = {{"block", record.subtitle},
+  part.facts = {{"title", record.title},
+                {"block", record.subtitle},
                 {"verdict", verdict_facts(result)},
                 {"best_number", record.best_number},
                 {"score_label", record.score_label},
