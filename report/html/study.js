@@ -153,9 +153,17 @@ Report.studySections = (work) => {
   }
 
   // Importance.
+  for (const [arm, shares] of Object.entries((work.model && work.model.importance) || {})) {
+    const listed = Object.entries(shares).map(([name, share]) => ({label: (columns.find((column) => column.name === name) || {label: name}).label, ...share})).sort((a, b) => b.total - a.total);
+    sections.push(section("What matters", chart(`Share of the variation of the expected score that each variable explains, ${arm}`, () => ({
+      bars: true, x: {choices: listed.map((one) => one.label)}, y: {label: "share", min: 0, max: 1},
+      series: [{label: "alone (first-order Sobol index)", colour: Report.series(0), y: listed.map((one) => Math.max(0, one.first))},
+               {label: "with the others (total index)", colour: Report.series(1), y: listed.map((one) => Math.max(0, one.total))}]}),
+      {note: `by the model, over the whole bounds, to about a tenth. ${work.model.trusted === false ? "The model of this study is not to be relied on: a hint at most." : ""}`}), work.model.in_words ? el("p", {class: "soft"}, work.model.in_words) : null));
+  }
   if (scored.length >= 6 && variables.length) {
     const rows = scored, list = [usable.find((column) => column.kind === "score"), ...results.filter((column) => !["plateau_std"].includes(column.name)).slice(0, 3)].filter(Boolean);
-    sections.push(section("What matters", chart("Rank correlation of each variable with the results", () => ({
+    sections.push(section("What goes with what", chart("Rank correlation of each variable with the results", () => ({
       bars: true, x: {choices: variables.map((column) => column.label)}, y: {label: "rank correlation", min: -1, max: 1},
       series: list.map((result, k) => ({label: result.label, colour: Report.series(k), y: variables.map((variable) => {
         const both = rows.filter((row) => row.values[variable.at] !== null && row.values[result.at] !== null);

@@ -233,6 +233,7 @@ Part study_part(const results::StudyRecord& record, const fs::path& folder) {
                 {"thumbnails", thumbnails(candidates, evaluated)},
                 {"failed", failed_facts(candidates, evaluated)}};
   if (result.is_object()) {
+    part.facts["model"] = result.value("model", json());
     part.facts["finals"] = result.value("finals", json());
     part.facts["status"] = result.value("status", "");
     part.facts["reason"] = result.value("reason", "");

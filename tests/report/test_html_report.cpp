@@ -207,6 +207,30 @@ TEST(Report, OfEveryKindOfWork) {
   EXPECT_FALSE(work.at("finals").at("best_scores").empty());
 }
 
+TEST(Report, HasTheTitleOfTheDesign) {
+  const auto folder = fresh_folder("report-title");
+  SyntheticRun synthetic = make_run(0.05, 2, 1e-3, 0.6);
+  synthetic.run.provenance.title = "Slots & holes";
+  write_run(synthetic, folder / "R.h5");
+  write_report(folder / "R.h5", folder / "R.html");
+  const json facts = facts_of(io::read_file(folder / "R.html"));
+  EXPECT_EQ(facts.at("title"), "Slots & holes");
+  EXPECT_EQ(facts.at("name"), "R");  // of downloads
+}
+
+// What result.json says of the model of a search goes into its report as it is.
+TEST(Report, OfAStudyWithAModelHasItsSobolIndices) {
+  const auto folder = fresh_folder("report-model");
+  fs::copy(fs::path(PERFORA_SOURCE_DIR) / "tests" / "pinned" / "data" / "study", folder / "study",
+           fs::copy_options::recursive);
+  json result = json::parse(io::read_file(folder / "study" / "result.json"));
+  const json importance = {{"all", {{"layout.diameter", {{"first", 0.7}, {"total", 0.8}}}}}};
+  result["model"] = {{"in_words", "coverage"}, {"trusted", true}, {"importance", importance}};
+  io::write_file(folder / "study" / "result.json", result.dump());
+  write_report(folder / "study", folder / "r.html");
+  EXPECT_EQ(facts_of(io::read_file(folder / "r.html")).at("work").at("model").at("importance"), importance);
+}
+
 TEST(Report, RefusesWhatIsNoRun) {
   const auto folder = fresh_folder("report-refused");
   const fs::path data = fs::path(PERFORA_SOURCE_DIR) / "tests" / "pinned" / "data";
