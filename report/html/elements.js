@@ -104,7 +104,8 @@ Report.csvField = (value) => {
 /** The block of a layout with its holes (layout_path.h). */
 Report.layout = (layout, label) => Report.svg("svg",
   {viewBox: `0 0 ${layout.width} ${layout.height}`, role: "img", "aria-label": label},
-  Report.svg("rect", {class: "concrete", width: layout.width, height: layout.height}),
-  Report.svg("path", {class: "hole", d: layout.path}));
+  Report.svg("svg", {width: layout.width, height: layout.height},  // cuts off what reaches over an edge
+    Report.svg("rect", {class: "concrete", width: layout.width, height: layout.height}),
+    Report.svg("path", {class: "hole", d: layout.path})));
 
 Report.section = (title, ...children) => Report.el("section", {}, Report.el("h2", {}, title), children);

@@ -180,6 +180,7 @@ Report.viewer = (block, {onFrame = () => {}} = {}) => {
     show(Math.min(block.count - 1, 1));
     addEventListener("resize", resize);
     document.documentElement.dataset.block = "shown";
+    Report.shownAt = performance.now();  // for tests
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paint);
   // For tests: how long it takes to show each frame once, in ms.
