@@ -19,6 +19,14 @@ Origin at_line_of(Origin origin, const Value& value) {
   return origin;
 }
 
+/// What to do about a number out of range: a ratio may be meant in percent.
+std::string in_percent(double number, const Range& range, Dimension dimension) {
+  constexpr double percent = 100.0, least = 2.0;  // 1.2 is no percent
+  if (dimension != Dimension::ratio || number < least || !range.contains(number / percent))
+    return "choose a value in that range";
+  return fmt::format("did you mean {0}, which is \"{1} %\"?", shortest(number / percent), shortest(number));
+}
+
 void check_range(double number, const Range& range, Dimension dimension, const Origin& origin,
                  const std::string& which = {}) {
   if (range.contains(number)) return;
@@ -26,7 +34,7 @@ void check_range(double number, const Range& range, Dimension dimension, const O
   throw InputError(origin,
                    fmt::format("{}{}{} is out of range", which, shortest(number), unit.empty() ? "" : " " + unit),
                    fmt::format("allowed: {}{}", range.text(), unit.empty() ? "" : fmt::format(" (in {})", unit)),
-                   "choose a value in that range");
+                   in_percent(number, range, dimension));
 }
 
 [[noreturn]] void refuse(const Value& value, const std::string& wanted, const Origin& origin) {

@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "io/schema.h"
 
 namespace perfora::results {
 
@@ -17,6 +20,10 @@ std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path);
 /// What a TOML file is, by its sections: "study", "sweep", "calibration" or "design". Throws io::InputError for a file
 /// that cannot be read.
 std::string kind_of_toml(const std::filesystem::path& path);
+
+/// Throws io::InputError for a file that is of another kind than `kind`, one of those above, and names the command for
+/// what it is.
+void require_kind(const std::vector<io::Entry>& entries, const std::filesystem::path& file, const std::string& kind);
 
 /// Aligned lines about what has no summary: a checkpoint (checkpoint.h5), a journal (journal.jsonl), a design or study
 /// (TOML), the companion of an XDMF file, or the folder of work that goes on. Read only: takes no lock, repairs

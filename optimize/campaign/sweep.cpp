@@ -107,7 +107,7 @@ struct Reader {
 
   static TableFileForm form() {
     const std::vector<std::string> tables{"rows", "grid", "each"};
-    return {{"sweep"}, tables, [](io::Entry& entry, const std::string& source) {
+    return {"sweep", {"sweep"}, tables, [](io::Entry& entry, const std::string& source) {
               const std::string table = entry.key.substr(0, entry.key.find('.'));
               if (entry.key.find('.') != std::string::npos && table != "sweep")
                 throw io::InputError({source, entry.value.line, entry.key}, fmt::format("unknown table [{}]", table),

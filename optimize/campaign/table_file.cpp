@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "io/toml.h"
+#include "results/describe.h"
 
 namespace perfora::optimize {
 namespace {
@@ -29,6 +30,7 @@ TableFile::TableFile(const std::filesystem::path& path, const TableFileForm& for
                      const std::vector<std::string>& overrides)
     : path_(path), form_(form), schema_(schema) {
   std::vector<io::Entry> entries = io::read_toml(path);
+  results::require_kind(entries, path, form_.kind);
   for (io::Entry& entry : entries) take(std::move(entry), path.string());
   for (const std::string& text : overrides) {
     const std::string section = section_of(text);

@@ -8,6 +8,7 @@
 #include "io/toml.h"
 #include "optimize/evaluate/calibrated_material.h"
 #include "results/curve_file.h"
+#include "results/describe.h"
 
 namespace perfora::optimize {
 
@@ -68,6 +69,7 @@ DesignFile::DesignFile(const Design& design) : DesignFile() {
 DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std::string>& overrides) : DesignFile() {
   path_ = path;
   const std::vector<io::Entry> entries = io::read_toml(path);
+  results::require_kind(entries, path, "design");
   io::apply_entries(*schema_, material_first(entries), path.string());
   title_ = io::title_in(entries);
   if (title_.empty()) title_ = path.stem().string();

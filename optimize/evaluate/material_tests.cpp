@@ -156,7 +156,7 @@ DesignFile material_sample(const DesignFile& design) {
     throw io::InputError(design.schema().origin("material_test.size"),
                          fmt::format("a sample of {} is too small for discs of {} and their horizon", length(size),
                                      length(options.packing.mean_diameter)),
-                         "at least " + length(least), "raise test.size or take smaller discs");
+                         "at least " + length(least), "raise material_test.size or take smaller discs");
   options.layout.width = options.layout.height = size;
   options.layout.scale = 1.0;
   return sample;

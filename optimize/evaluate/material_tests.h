@@ -48,7 +48,7 @@ struct MaterialTests {
   results::Performance performance;
 };
 
-/// The solid sample of a design: no perforations, a square cell of test.size (an imported packing keeps its cell).
+/// The solid sample of a design: no perforations, a square cell of material_test.size (an imported packing keeps its cell).
 /// Throws io::InputError for a sample too small for the discs.
 DesignFile material_sample(const DesignFile& design);
 

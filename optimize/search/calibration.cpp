@@ -60,7 +60,7 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
   calibration.file = path;
   io::Schema schema;
   describe(schema, calibration.keys);
-  const TableFile file(path, {{"calibrate"}, {}}, schema, overrides);
+  const TableFile file(path, {"calibration", {"calibrate"}, {}}, schema, overrides);
   const CalibrationKeys& keys = calibration.keys;
   const auto start = file.start(keys.design);
   refuse_skip(keys.execution, schema.origin("calibrate.on_trouble"));

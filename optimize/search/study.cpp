@@ -57,7 +57,8 @@ struct Reader {
   }
 
   void read(const std::vector<std::string>& overrides) {
-    const TableFileForm form{{"study", "target", "constraints", "map", "race", "verify"},
+    const TableFileForm form{"study",
+                             {"study", "target", "constraints", "map", "race", "verify"},
                              {"variables", "arms", "fidelity"},
                              flatten_allocation};
     tables.emplace(path, form, schema, overrides);

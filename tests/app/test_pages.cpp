@@ -2,8 +2,11 @@
 // reports (tests/report), how browsers show them (tests/viewers).
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/app/command_line.h"
 
@@ -30,6 +33,48 @@ TEST_F(CommandLine, EvaluateWritesItsReport) {
   EXPECT_TRUE(fs::exists(folder_ / "film" / "frame-0001.png"));
   EXPECT_EQ(run("movie r.h5 -o film").exit_code, 1);
   EXPECT_EQ(run("movie r.h5 -o film --force").exit_code, 0);
+}
+
+// The title of the design, not the name of the file, stands in what is made of a run.
+TEST_F(CommandLine, TitleOfTheDesignGoesWithItsRun) {
+  ASSERT_EQ(run("evaluate d.toml -o r.h5 --quiet").exit_code, 0);
+  EXPECT_THAT(read_text(folder_ / "r.html"), HasSubstr("<title>small</title>"));
+  EXPECT_EQ(run("draw r.h5 -o r.svg --quiet").exit_code, 0);
+  EXPECT_THAT(read_text(folder_ / "r.svg"), HasSubstr(">small<"));
+}
+
+// Start, first peak (where it is passed), every 5 % and the end: to 12 % strain 0, 5, 10 and 12 %.
+TEST_F(CommandLine, RunFilesHoldAFrameForEveryFivePercent) {
+  ASSERT_EQ(run("evaluate d.toml -o r.h5 --until 0.12 --set loading.rate=200 --quiet").exit_code, 0);
+  ASSERT_EQ(run("export r.h5 --csv -o r --quiet").exit_code, 0);
+  std::set<std::string> strains;
+  std::istringstream lines(read_text(folder_ / "r.discs.csv"));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::string frame, strain;
+    std::getline(fields, frame, ',');
+    std::getline(fields, strain, ',');
+    strains.insert(strain.substr(0, 6));
+  }
+  for (const char* wanted : {"0", "0.05", "0.1", "0.12"})
+    EXPECT_TRUE(std::any_of(strains.begin(), strains.end(), [&](const std::string& strain) {
+      return std::abs(std::stod(strain) - std::stod(wanted)) < 1e-3;
+    })) << wanted;
+  EXPECT_LE(strains.size(), 5u);
+}
+
+// Each kind of file names the command it is for.
+TEST_F(CommandLine, FilesOfAnotherKindNameTheirCommand) {
+  std::ofstream(folder_ / "s.toml") << "[study]\ndesign = \"d.toml\"\n";
+  std::ofstream(folder_ / "w.toml") << "[sweep]\ndesign = \"d.toml\"\n";
+  std::ofstream(folder_ / "c.toml") << "[calibrate]\ndesign = \"d.toml\"\n";
+  EXPECT_THAT(run("evaluate s.toml -o r.h5").error, HasSubstr("s.toml: this is a study: perfora optimize"));
+  EXPECT_THAT(run("pack w.toml -o r.h5").error, HasSubstr("w.toml: this is a sweep: perfora sweep"));
+  EXPECT_THAT(run("optimize c.toml -o o").error, HasSubstr("c.toml: this is a calibration: perfora calibrate"));
+  EXPECT_THAT(run("sweep d.toml -o o").error, HasSubstr("d.toml: this is a design: perfora evaluate"));
+  EXPECT_THAT(run("evaluate d.toml --until 60 -o r.h5").error, HasSubstr("did you mean 0.6, which is \"60 %\"?"));
 }
 
 TEST_F(CommandLine, PlotDrawsADesignBeforeAnyRun) {

@@ -69,6 +69,10 @@ TEST(SchemaErrors, OutOfRangeSaysTheRange) {
   EXPECT_EQ(error_of("[layout]\ndiameter = \"-20 mm\"\n"),
             "a.toml:2: layout.diameter: -0.02 m is out of range; allowed: greater than 0 (in m); choose a value in "
             "that range");
+  EXPECT_EQ(error_of("[packing]\nsolid_fraction = 60\n"),
+            "a.toml:2: packing.solid_fraction: 60 is out of range; allowed: greater than 0 and at most 1; did you mean "
+            "0.6, which is \"60 %\"?");
+  EXPECT_THAT(error_of("[packing]\nsolid_fraction = 1.2\n"), HasSubstr("choose a value in that range"));
   EXPECT_THAT(error_of("[layout]\nrows = 0\n"), HasSubstr("0 is out of range; allowed: 1 to 1000"));
   EXPECT_THAT(error_of("[layout]\nrows = 4294967297\n"), HasSubstr("out of range"));  // 2^32 + 1 must not become 1
   EXPECT_THAT(error_of("[loading]\nstrains = [0.1,\n 1.2]\n"),
