@@ -40,6 +40,7 @@ int calibrate(const CalibrateFlags& flags) {
   options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
+  options.results_written = report_renewal(options.folder);
   const optimize::ExecutionKeys& execution = calibration.keys.execution;
   const int side_by_side = flags.workers.workers > 0 ? flags.workers.workers
                            : execution.workers > 0   ? execution.workers

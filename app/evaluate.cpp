@@ -146,6 +146,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   options.replicates = flags.replicates;
   options.resume = flags.resume;
   options.force = flags.common.force;
+  options.results_written = report_renewal(options.folder);
   log_warnings(warnings);
   options.finished = [&](const optimize::Evaluation& evaluation, const std::filesystem::path& run_file, bool kept) {
     progress.finish("");

@@ -45,10 +45,13 @@ optimize::WorkOptions run_options(const MapFlags& flags, const optimize::Study& 
 int map_study(const MapFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   optimize::Study study = optimize::read_study(flags.study, overrides(flags), optimize::StudyUse::map);
-  const optimize::WorkOptions options = run_options(flags, study);
+  optimize::WorkOptions options = run_options(flags, study);
+  ProgressLine progress("map", flags.common.quiet);
+  watch_on_terminal(options, progress);
   optimize::MapRun run(std::move(study), options);
   log_warnings(run.study().warnings);
   run.run();
+  progress.finish(run.reason());
   const results::MapRecord record = run.record();
   if (!record.designs.empty()) draw_campaign(options.folder, options.folder / "map.png");
   for (const std::string& sentence : results::out_of_reach(record)) io::log_warning(sentence);

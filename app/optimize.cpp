@@ -98,11 +98,14 @@ void draw(const optimize::StudyRun& run) {
 int optimize_study(const OptimizeFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   optimize::Study study = optimize::read_study(flags.study, overrides(flags));
-  const optimize::WorkOptions options = run_options(flags, study);
+  optimize::WorkOptions options = run_options(flags, study);
+  ProgressLine progress("study", flags.common.quiet);
+  watch_on_terminal(options, progress);
   optimize::StudyRun run(std::move(study), options, flags.wall_time);
   say_what_is_known(run);
   announce(run.study());
   run.run();
+  progress.finish(run.reason());
   auto status = run.status();
   if (status == results::RunStatus::completed && !flags.no_run_file) {
     const auto best = run_best(flags, run);

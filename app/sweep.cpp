@@ -41,7 +41,9 @@ optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
 int sweep_designs(const SweepFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   Sweep sweep = optimize::read_sweep(flags.sweep, flags.common.overrides(), flags.only);
-  const optimize::WorkOptions options = run_options(flags, sweep);
+  optimize::WorkOptions options = run_options(flags, sweep);
+  ProgressLine progress("sweep", flags.common.quiet);
+  watch_on_terminal(options, progress);
   optimize::SweepRun run(std::move(sweep), options);
   log_warnings(run.sweep().warnings);
   io::log_info(fmt::format("{} cases, {} runs", run.sweep().cases.size(), run.sweep().runs()));
@@ -51,6 +53,7 @@ int sweep_designs(const SweepFlags& flags) {
                     "runs the rest and shows all",
                     run.sweep().left_out, options.folder.string()));
   run.run();
+  progress.finish(run.reason());
   draw_campaign(options.folder, options.folder / "sweep.png");
   write_report_beside(options.folder);
   const bool collapse = draw_collapse(options.folder, options.folder / "collapse.png");

@@ -43,6 +43,15 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const Worke
                                      common.memory_allowed()});
 }
 
+void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line) {
+  if (!io::rewrites_progress()) return;
+  options.line_an_answer = false;
+  options.progress = [&line](const optimize::WorkProgress& work) {
+    const auto all = static_cast<double>(work.known + work.remaining);
+    line.update(all > 0.0 ? static_cast<double>(work.known) / all : 1.0, work.standing);
+  };
+}
+
 int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,
                        const std::filesystem::path& folder) {
   for (const std::string& trouble : troubles)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/common.h"
+#include "optimize/campaign/evaluation_queue.h"
 #include "optimize/campaign/execution.h"
 #include "optimize/campaign/executor.h"
 
@@ -32,6 +33,10 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const Worke
                                                                      const optimize::ExecutionKeys& of_file,
                                                                      int workers, const CommonFlags& common,
                                                                      const std::filesystem::path& folder);
+
+/// On a terminal: one line with percent, time left and how the work stands instead of a line an evaluation. `line` must
+/// outlive the work.
+void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line);
 
 /// Tells of work that has stopped in its folder, and what the surroundings did where they ended it; the exit code.
 int say_how_work_ended(results::RunStatus status, const std::vector<std::string>& troubles,

@@ -124,6 +124,10 @@ void log_error(const std::string& text) {
   Output::get().line(spdlog::level::err, "error: " + text);
 }
 
+bool rewrites_progress() {
+  return on_terminal();
+}
+
 std::string progress_text(const std::string& title, double fraction, double first_fraction, double seconds,
                           const std::string& detail) {
   std::string text = fmt::format("{} {:.1f} %", title, 100.0 * fraction);

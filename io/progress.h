@@ -15,6 +15,9 @@ void log_info(const std::string& text);
 void log_warning(const std::string& text);  ///< shown even when quiet
 void log_error(const std::string& text);
 
+/// Whether Progress rewrites one line; otherwise it adds plain lines to a log.
+bool rewrites_progress();
+
 /// One long piece of work. Updates are cheap to call; at most ten a second reach a terminal, one every ten seconds a
 /// log.
 class Progress {

@@ -62,6 +62,8 @@ class Campaign {
   virtual nlohmann::json event_of(const Asked& asked, const Answer& answer, const Answers& answers) const;
   /// Hears of an answer after pending() has seen it. A line for people; empty: none.
   virtual std::string on_answer(const Asked& asked, const Evaluation& evaluation) = 0;
+  /// How the work stands, in a few words: the stage, the best so far, the verdict so far. Empty: nothing to say.
+  virtual std::string standing() const { return {}; }
   /// How many evaluations may still come, at most.
   virtual std::int64_t remaining() const = 0;
   /// What came out, once nothing is pending.

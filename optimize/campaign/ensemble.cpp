@@ -44,6 +44,7 @@ class EnsembleRun final : public Campaign {
     work.resume = options.resume;
     work.force = options.force;
     work.command_line = options.evaluate.command_line;
+    work.results_written = options.results_written;
     work.make_executor = [this] { return make_calling_executor([this](const Request& r) { return evaluate(r); }); };
     open(std::move(work));
   }

@@ -24,6 +24,7 @@ struct EnsembleOptions {
   int replicates = 0;   ///< replicates 0 .. replicates - 1
   bool resume = false;  ///< keep finished replicates of the same design; resume the one that was stopped
   bool force = false;   ///< throw away what an earlier ensemble left in the folder
+  std::function<void()> results_written;  ///< called when those so far were, between replicates; may be empty
   /// Called when a replicate is finished or was found finished (`kept`). May be empty.
   std::function<void(const Evaluation&, const std::filesystem::path& run_file, bool kept)> finished;
 };

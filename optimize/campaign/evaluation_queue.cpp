@@ -247,7 +247,8 @@ bool EvaluationQueue::run(Campaign& campaign) {
     for (const Asked& asked : wanted)
       if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
     std::optional<Answer> answer = executor->next(look_interval);
-    if (options_.progress) options_.progress({static_cast<std::int64_t>(answers_.size()), campaign.remaining()});
+    if (options_.progress)
+      options_.progress({static_cast<std::int64_t>(answers_.size()), campaign.remaining(), campaign.standing()});
     stopped = options_.cancellation.requested();
     if (!answer || (answer->trouble.empty() && answer->evaluation.status == results::RunStatus::stopped)) {
       if (answer) interrupted_ = std::move(answer->evaluation);
@@ -268,7 +269,10 @@ bool EvaluationQueue::run(Campaign& campaign) {
     if (!asked.run_file && !options_.keep_run_files) drop_run_file(asked.request);
     wanted = wanted_by(campaign);
     const std::string text = campaign.on_answer(asked, *evaluation);
-    if (!text.empty()) io::log_info(text + time_left(campaign.remaining()));
+    if (!text.empty() && options_.line_an_answer) {
+      const std::string standing = campaign.standing();
+      io::log_info(text + (standing.empty() ? "" : "; " + standing) + time_left(campaign.remaining()));
+    }
     in_flight_.erase(asked.key);
     if (wanted.empty() || Clock::now() - written < options_.results_interval) continue;
     campaign.write_results();

@@ -46,6 +46,7 @@ struct Asked {
 struct WorkProgress {
   std::int64_t known = 0;      ///< evaluations that the journal holds
   std::int64_t remaining = 0;  ///< that may still come, at most
+  std::string standing;        ///< Campaign::standing()
 };
 
 /// How a folder's work is carried out.
@@ -66,6 +67,8 @@ struct WorkOptions {
   io::Cancellation cancellation;
   /// Called a few times a second while evaluations run in other threads or processes. May be empty.
   std::function<void(const WorkProgress&)> progress;
+  /// A line a finished evaluation; off where `progress` draws one line that says it all.
+  bool line_an_answer = true;
   /// Results of unfinished work are written this often, so that a kill leaves something to look at.
   std::chrono::seconds results_interval = std::chrono::seconds(60);
   /// Called when they were. May be empty.

@@ -56,6 +56,7 @@ class CalibrationRun final : public Campaign {
     work.make_executor = options.make_executor;
     work.execution = keys_.execution;
     work.cancellation = options.cancellation;
+    work.results_written = options.results_written;
     work.progress = [this](const WorkProgress& so_far) {
       const int most = most_points(calibration_) * tests_a_point();
       if (options_.progress)
@@ -331,7 +332,7 @@ class CalibrationRun final : public Campaign {
     if (!target.met && !told)
       search_.not_met.push_back(
           fmt::format("{}: {} was reached where {} was wanted ({:+.1f} %); "
-                      "more calibrate.replicates, a larger test.size or a wider tolerance may help",
+                      "more calibrate.replicates, a larger material_test.size or a wider tolerance may help",
                       name, text(target.reached), text(wanted), 100.0 * (target.reached / wanted - 1.0)));
     targets_.push_back(std::move(target));
   }

@@ -21,7 +21,8 @@ struct CalibrationOptions {
   results::ProgressCallback progress;  ///< may be empty
   /// Makes what carries the tests of the search; not called when the journal answers all of them.
   std::function<std::unique_ptr<Executor>()> make_executor;
-  io::Cancellation cancellation;  ///< requested: tests stop, finished ones are kept
+  std::function<void()> results_written;  ///< called about once a minute, when results so far were; may be empty
+  io::Cancellation cancellation;          ///< requested: tests stop, finished ones are kept
 };
 
 /// k_t/k_n from nu and k_n from E by the elastic response of the samples (a root and a division); delta_t0/delta_n0

@@ -63,11 +63,28 @@ void write_map(const results::MapRecord& record, const std::filesystem::path& fo
   io::write_file(folder / "map.json", to_json(record).dump() + "\n");
 }
 
-std::string best_of_map_text(const Study& study, const Plan& plan) {
+namespace {
+
+/// By the score; nullptr where nothing is wished or usable.
+const Visit* best_visit(const Study& study, const Plan& plan) {
   const Visit* best = nullptr;
+  if (!results::is_given(study.target)) return best;
   for (const Visit& visit : plan.map)
     if (visit.answered && visit.detail.valid && (!best || visit.score < best->score)) best = &visit;
-  if (!best || !results::is_given(study.target)) return {};
+  return best;
+}
+
+}  // namespace
+
+std::string standing_of_map(const Study& study, const Plan& plan) {
+  const Visit* best = best_visit(study, plan);
+  if (!best) return "map";
+  return fmt::format("map, best so far: {}, score {:.4g}", best->candidate->label, best->score);
+}
+
+std::string best_of_map_text(const Study& study, const Plan& plan) {
+  const Visit* best = best_visit(study, plan);
+  if (!best) return {};
   return fmt::format("best of the {} mapped designs: {}, plateau {}, score {:.4g} over {} seeds that chose it",
                      plan.map.size(), best->candidate->label,
                      io::quantity(best->detail.plateau_mean, io::Dimension::stress), best->score,

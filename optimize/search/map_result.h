@@ -17,5 +17,7 @@ void write_map(const results::MapRecord& record, const std::filesystem::path& fo
 
 /// A sentence on the best design of the map for the wishes of today; empty where none is usable.
 std::string best_of_map_text(const Study& study, const Plan& plan);
+/// The same in a few words, while the map is made: "map, best so far: ...".
+std::string standing_of_map(const Study& study, const Plan& plan);
 
 }  // namespace perfora::optimize

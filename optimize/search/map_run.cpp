@@ -54,6 +54,7 @@ std::vector<Asked> MapRun::pending(const Answers& answers) {
   std::vector<Asked> asked;
   for (const Wanted& one : plan_.wanted) asked.push_back({one.key, one.request, one.candidate->label});
   remaining_ = static_cast<std::int64_t>(asked.size());
+  standing_ = standing_of_map(study_, plan_);
   return asked;
 }
 

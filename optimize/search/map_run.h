@@ -28,6 +28,7 @@ class MapRun final : public Campaign {
   void check_same(const nlohmann::json& head, const std::filesystem::path& journal) const override;
   std::vector<Asked> pending(const Answers& answers) override;
   std::string on_answer(const Asked& asked, const Evaluation& evaluation) override;
+  std::string standing() const override { return standing_; }
   std::int64_t remaining() const override { return remaining_; }
   CampaignEnd finished() override;
   void write_results() override;
@@ -37,6 +38,7 @@ class MapRun final : public Campaign {
   Driver driver_;
   Plan plan_;
   std::int64_t remaining_ = 0;
+  std::string standing_;
 };
 
 }  // namespace perfora::optimize

@@ -35,6 +35,16 @@ bool may_change(const Difference& one) {
 /// How often the surroundings of a run cost more than the run itself: a limit of time is kept by this much.
 constexpr double margin = 1.2;
 
+/// What is asked first says it.
+std::string stage_of(const Plan& plan, const Study& study) {
+  if (plan.wanted.empty()) return plan.finished ? "finished" : "waiting";
+  const int replicate = plan.wanted.front().request.replicate;
+  if (replicate >= first_confirming_replicate) return "confirmation";
+  if (replicate >= first_race_replicate) return "race";
+  if (study.keys.map.designs > 0 && !plan.map_finished) return "map";
+  return replicate >= study.keys.replicates ? "verification" : "search";
+}
+
 }  // namespace
 
 int useful_workers(const Study& study, int asked) {
@@ -139,13 +149,22 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
     const Score score = score_of(study_.target, all);
     what += score.valid ? fmt::format(", score {:.4g}", score.value) : ", no score";
   }
-  const std::string best = plan_.best ? fmt::format("; best so far {:.4g}", plan_.best_score.value) : "";
   const std::int64_t most = planned_.runs(), done = most - remaining();
   const int number = replicate >= first_confirming_replicate ? replicate - first_confirming_replicate
                      : replicate >= first_race_replicate     ? replicate - first_race_replicate
                                                              : replicate;
-  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}{}", done, most, asked.label, stage,
-                     number + 1, what, best);
+  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}", done, most, asked.label, stage, number + 1,
+                     what);
+}
+
+/// Computed after every answer, not at every look at it.
+std::string StudyRun::standing_now() {
+  std::string text = stage_of(plan_, study_);
+  if (!plan_.best) return text;
+  text += fmt::format(", best so far: {}, score {:.4g}", plan_.best->label, plan_.best_score.value);
+  if (const auto verdict = verdict_of(*this))
+    text += fmt::format(", verdict so far: {}", results::outcome_name(verdict->outcome));
+  return text;
 }
 
 void StudyRun::end_early_if_late() {
@@ -185,6 +204,7 @@ std::vector<Asked> StudyRun::pending(const Answers& answers) {
     candidates_[one.key] = one.candidate;
     asked.push_back({one.key, one.request, one.candidate->label});
   }
+  standing_ = standing_now();
   return asked;
 }
 

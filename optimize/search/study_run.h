@@ -43,6 +43,7 @@ class StudyRun final : public Campaign {
   void check_same(const nlohmann::json& head, const std::filesystem::path& journal) const override;
   std::vector<Asked> pending(const Answers& answers) override;
   std::string on_answer(const Asked& asked, const Evaluation& evaluation) override;
+  std::string standing() const override { return standing_; }
   std::int64_t remaining() const override;
   CampaignEnd finished() override;
   void write_results() override;
@@ -55,6 +56,7 @@ class StudyRun final : public Campaign {
   };
   Taken read_map(const WorkOptions& options);
   void take_map(Taken taken);
+  std::string standing_now();
   void end_early_if_late();
 
   Study study_;
@@ -62,6 +64,7 @@ class StudyRun final : public Campaign {
   Plan plan_;
   StudyPlan planned_;
   double wall_time_ = 0.0;  ///< s
+  std::string standing_;
   int taken_over_ = 0;
   std::set<std::string> said_;                          ///< notes of the search
   std::map<std::string, const Candidate*> candidates_;  ///< by request key, of everything asked

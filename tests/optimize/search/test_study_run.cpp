@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <set>
 
 #include "io/files.h"
 #include "io/journal.h"
@@ -54,6 +55,23 @@ TEST_F(StudyRunTest, WorkersDoNotChangeTheResult) {
     EXPECT_EQ(record, first);
   }
   EXPECT_EQ(first.at("status"), "completed");
+}
+
+// What people see while it runs: stage, best and verdict so far.
+TEST_F(StudyRunTest, SaysHowItStands) {
+  WorkOptions watched = options("watched", fake_evaluation);
+  std::set<std::string> stages;
+  std::string last;
+  watched.progress = [&](const WorkProgress& progress) {
+    last = progress.standing;
+    stages.insert(last.substr(0, last.find(',')));
+  };
+  StudyRun run(study(), watched);
+  run.run();
+  EXPECT_TRUE(stages.contains("search"));
+  EXPECT_TRUE(stages.contains("verification"));
+  EXPECT_NE(last.find(", best so far: "), std::string::npos) << last;
+  EXPECT_NE(last.find(", verdict so far: "), std::string::npos) << last;
 }
 
 TEST_F(StudyRunTest, ChildProcessesGiveWhatThisProcessGives) {
