@@ -36,6 +36,18 @@ void add_frame(py::module_& module) {
       .def_property_readonly("damage", view_of(&Frame::damage), "(n), share of the original bonds lost.")
       .def_property_readonly("bonds", view_of(&Frame::bonds, 2), "(m,2), discs.")
       .def_property_readonly("bond_damage", view_of(&Frame::bond_damage), "(m), damage of each bond, 0 to 1.")
+      .def_property_readonly("velocity", view_of(&Frame::velocity, 2),
+                             "(n,2), m/s, beyond the affine motion of the block; empty unless output.frame_data is "
+                             "\"all\", as all below.")
+      .def_property_readonly("spin", view_of(&Frame::spin), "(n), rad/s.")
+      .def_property_readonly("stress", view_of(&Frame::stress, 3),
+                             "(n,3), xx, yy, xy over the disc's area, Pa, compression positive.")
+      .def_property_readonly("bond_normal_force", view_of(&Frame::bond_normal_force), "(m), N/m, tension positive.")
+      .def_property_readonly("bond_shear_force", view_of(&Frame::bond_shear_force), "(m), N/m.")
+      .def_property_readonly("contacts", view_of(&Frame::contacts, 2), "(c,2), discs that touch.")
+      .def_property_readonly("contact_normal_force", view_of(&Frame::contact_normal_force),
+                             "(c), N/m, compression positive.")
+      .def_property_readonly("contact_shear_force", view_of(&Frame::contact_shear_force), "(c), N/m.")
       .def("__repr__", [](const Frame& frame) {
         return "<perfora.Frame at strain " + py::str(py::float_(frame.strain)).cast<std::string>() + ">";
       });

@@ -146,6 +146,14 @@ Frame RunFile::frame(std::size_t index) const {
     frame.damage = std::move(read.damage);
     frame.bonds = std::move(read.bond_pairs);
     frame.bond_damage = std::move(read.bond_damage);
+    frame.velocity = std::move(read.velocity);
+    frame.spin = std::move(read.spin);
+    frame.stress = std::move(read.stress);
+    frame.bond_normal_force = std::move(read.bond_normal_force);
+    frame.bond_shear_force = std::move(read.bond_shear_force);
+    frame.contacts = std::move(read.contact_pairs);
+    frame.contact_normal_force = std::move(read.contact_normal_force);
+    frame.contact_shear_force = std::move(read.contact_shear_force);
     return frame;
   });
 }

@@ -28,6 +28,16 @@ struct Frame {
   std::vector<double> damage;          ///< (n) share of the original bonds lost, 0 to 1
   std::vector<std::int32_t> bonds;     ///< (m,2) discs
   std::vector<double> bond_damage;     ///< (m) damage of each bond, 0 to 1
+
+  /// Only of runs with output.frame_data = "all", else empty; c pairs of discs touch. Forces per metre of depth.
+  std::vector<double> velocity;              ///< (n,2) m/s, beyond the affine motion of the block
+  std::vector<double> spin;                  ///< (n) rad/s
+  std::vector<double> stress;                ///< (n,3) xx, yy, xy over the disc's area, Pa, compression positive
+  std::vector<double> bond_normal_force;     ///< (m) N/m, tension positive
+  std::vector<double> bond_shear_force;      ///< (m) N/m
+  std::vector<std::int32_t> contacts;        ///< (c,2) discs that touch, the smaller number first
+  std::vector<double> contact_normal_force;  ///< (c) N/m, compression positive
+  std::vector<double> contact_shear_force;   ///< (c) N/m
 };
 
 /// All bonds that a run began with, m of them.

@@ -45,6 +45,33 @@ TEST(PublicFiles, RunHoldsDiscsBondsBreaksAndFrames) {
   EXPECT_NE(error_of([] { RunFile("/nowhere/r.h5"); }), "");
 }
 
+TEST(PublicFiles, FramesHoldVelocitiesAndForcesWhereTheRunKeptThem) {
+  const DesignFolder folder;
+  EvaluateOptions options;
+  options.run_file = folder / "r.h5";
+  Design design = small_block();
+  design.set("loading.until", "1 %");
+  static_cast<void>(evaluate(design, options));
+  const RunFile few(options.run_file);
+  EXPECT_TRUE(few.frame(0).stress.empty());
+  options.run_file = folder / "all.h5";
+  design.set("output.frame_data", "all");
+  static_cast<void>(evaluate(design, options));
+  const RunFile all(options.run_file);
+  const Frame frame = all.frame(all.frames() - 1);
+  const results::Frame of_room = results::read_frame(results::read_run(options.run_file), all.frames() - 1);
+  const std::size_t discs = all.discs().x.size(), bonds = frame.bonds.size() / 2;
+  ASSERT_EQ(frame.stress.size(), 3 * discs);
+  EXPECT_EQ(frame.stress, of_room.stress);
+  EXPECT_EQ(frame.velocity, of_room.velocity);
+  EXPECT_EQ(frame.spin.size(), discs);
+  EXPECT_EQ(frame.bond_normal_force.size(), bonds);
+  EXPECT_EQ(frame.bond_shear_force.size(), bonds);
+  EXPECT_EQ(frame.contacts, of_room.contact_pairs);
+  EXPECT_EQ(frame.contact_normal_force.size(), frame.contacts.size() / 2);
+  EXPECT_EQ(frame.contact_shear_force.size(), frame.contacts.size() / 2);
+}
+
 TEST(PublicFiles, ElasticResponseIsTheFilesOne) {
   const DesignFolder folder;
   const auto design = optimize::DesignFile::from_toml(optimize::small_design, "design");

@@ -47,6 +47,19 @@ class FilesTest(FolderTest):
         with self.assertRaises(IndexError):
             read.frame(len(read.frame_strains))
 
+    def test_frames_with_velocities_and_forces(self):
+        file = self.folder / "r.h5"
+        perfora.evaluate(perfora.Design(small, {"loading.until": 0.01, "output.frame_data": "all"}), run_file=file)
+        frame = perfora.read(file).frame(-1)
+        copied = shutil.copy(file, self.folder / "copy.h5")
+        with h5py.File(copied) as stored:
+            last = stored["frames"][sorted(stored["frames"])[-1]]
+            for name, place in (("velocity", "discs/velocity"), ("spin", "discs/spin"), ("stress", "discs/stress"),
+                                ("bond_normal_force", "bonds/normal_force"), ("bond_shear_force", "bonds/shear_force"),
+                                ("contacts", "contacts/pairs"), ("contact_normal_force", "contacts/normal_force"),
+                                ("contact_shear_force", "contacts/shear_force")):
+                np.testing.assert_array_equal(getattr(frame, name), last[place], err_msg=name)
+
     def test_elastic_response(self):
         design, file = self.folder / "d.toml", self.folder / "e.h5"
         design.write_text(perfora.Design(small).to_toml())
