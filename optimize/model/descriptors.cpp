@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "geometry/wall.h"
+#include "optimize/model/average.h"
 
 namespace perfora::model {
 namespace {
@@ -62,10 +62,6 @@ std::vector<std::size_t> minima(const std::vector<double>& solid) {
   }
   std::sort(found.begin(), found.end());
   return found;
-}
-
-double mean_of(const std::vector<double>& values) {
-  return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double deviation_of(const std::vector<double>& values) {

@@ -1,5 +1,6 @@
 // What is here: learning the responses of a target. What is not: a process (gaussian_process.cpp), answers.
 #include "optimize/model/response_model.h"
+#include "optimize/model/average.h"
 
 #include <fmt/format.h>
 
@@ -18,12 +19,6 @@ using Eigen::VectorXd;
 constexpr double of_normal = 1.959963985;
 /// A class needs this many designs to be told apart.
 constexpr int fewest_of_class = 4;
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 Spread spread_of(const std::vector<double>& values) {
   Spread spread{static_cast<int>(values.size()), 0.0};

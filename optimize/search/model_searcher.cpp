@@ -41,9 +41,9 @@ using PlacesOfBatch = std::vector<Place>;
 using Known = std::set<const Candidate*>;
 
 /// One call of ask().
-class Search {
+class ModelSearch {
  public:
-  Search(const SearchStage& stage, const CandidateStore& store) : stage_(stage), store_(store) {
+  ModelSearch(const SearchStage& stage, const CandidateStore& store) : stage_(stage), store_(store) {
     for (const SearchTask& task : stage.tasks) {
       Trace& trace = traces_.emplace_back();
       trace.arm = task.arm;
@@ -316,7 +316,7 @@ class ModelSearcher final : public Searcher {
   std::optional<Refusal> refuse(const std::string&, int) const override { return std::nullopt; }
   std::vector<std::string> warnings(const std::string&, int, int, int) const override { return {}; }
   std::vector<Trace> ask(const SearchStage& stage, const CandidateStore& store) const override {
-    return Search(stage, store).run();
+    return ModelSearch(stage, store).run();
   }
 };
 
