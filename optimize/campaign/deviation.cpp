@@ -1,7 +1,6 @@
 // What is here: designs changed as a workshop changes them. What is not: what that does (tolerance_result.h).
 #include "optimize/campaign/deviation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -21,6 +20,13 @@ struct Round {
   double x = 0.0, y = 0.0, diameter = 0.0;
 };
 
+/// As wide in every direction, and as large as a circle is.
+bool is_round(const geometry::Perforation& hole, double diameter) {
+  constexpr double rounding = 1e-9;
+  return hole.smallest_extent() > (1.0 - rounding) * diameter &&
+         std::abs(hole.area() / (0.25 * std::numbers::pi * diameter * diameter) - 1.0) < rounding;
+}
+
 /// The holes as they lie, where all are circles; empty otherwise.
 std::vector<Round> circles_of(const DesignFile& design) {
   LayoutOptions options = design.design().layout;
@@ -28,9 +34,9 @@ std::vector<Round> circles_of(const DesignFile& design) {
   std::vector<Round> found;
   for (const geometry::Perforation& hole :
        geometry::place_perforations(options, design.design().seeds.effective(0).layout).perforations) {
-    const auto* circle = std::get_if<geometry::Circle>(&hole.shape);
-    if (!circle) return {};
-    found.push_back({hole.x, hole.y, circle->diameter});
+    const double diameter = hole.largest_extent();
+    if (!is_round(hole, diameter)) return {};
+    found.push_back({hole.x, hole.y, diameter});
   }
   return found;
 }
