@@ -181,8 +181,11 @@ std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path) 
 }
 
 void require_kind(const std::vector<io::Entry>& entries, const std::filesystem::path& file, const std::string& kind) {
-  static const std::map<std::string, std::string> commands = {
-      {"study", "optimize"}, {"sweep", "sweep"}, {"calibration", "calibrate"}, {"design", "evaluate"}};
+  static const std::map<std::string, std::string> commands = {{"study", "optimize"},
+                                                              {"sweep", "sweep"},
+                                                              {"calibration", "calibrate"},
+                                                              {"tolerance", "tolerance"},
+                                                              {"design", "evaluate"}};
   const std::string found = kind_of_entries(entries);
   // What has no section of the others is called a design only where it has one of a design.
   const bool sure = found != "design" || std::any_of(entries.begin(), entries.end(), [](const io::Entry& entry) {

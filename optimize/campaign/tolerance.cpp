@@ -85,7 +85,7 @@ struct ToleranceReader {
       return false;
     }();
     if (has_section) {
-      const TableFile file(path, {{"tolerance"}, {}}, schema, overrides);
+      const TableFile file(path, {"tolerance", {"tolerance"}, {}}, schema, overrides);
       fresh = fs::is_directory(all.keys.design);
       start = file.start(all.keys.design.empty() ? all.keys.design : design_in(all.keys.design));
     } else {

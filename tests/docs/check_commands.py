@@ -39,6 +39,7 @@ SHORTER = [
     (r"perfora optimize ", " --set study.maxeval=1 --set study.replicates=1 --set study.final_replicates=1" + FAST),
     (r"perfora map ", " --set map.designs=2" + FAST),
     (r"perfora sweep ", " --set sweep.replicates=1" + FAST),
+    (r"perfora tolerance ", " --set tolerance.replicates=1" + FAST),
     (r"perfora calibrate ", " --set calibrate.chart=false --set calibrate.maxeval=4 --set calibrate.tolerance=0.5 --set calibrate.replicates=1"
      " --set material_test.size=7mm"),
     (r"perfora evaluate (?!.*--elastic)", FAST),
