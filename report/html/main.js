@@ -34,8 +34,9 @@ Report.build = async () => {
   if (facts.kind === "study") page.append(...Report.studySections(facts.work).filter(Boolean));
   if (facts.kind === "sweep" || facts.kind === "ensemble") page.append(...Report.sweepSections(facts.work, facts.kind === "ensemble").filter(Boolean));
   if (facts.kind === "calibration") page.append(...Report.calibrationSections(facts.work));
-  // The verdict is painted before the numbers of the frames are unpacked.
+  // The verdict is painted before the numbers of the frames, which stand at the end of the page, are read and unpacked.
   await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  if (document.readyState === "loading") await new Promise((done) => addEventListener("DOMContentLoaded", done));
   if (facts.run) {
     if (facts.run_caption) page.append(el("h2", {}, facts.run_caption), el("p", {class: "soft"}, facts.run.block), Report.cards(facts.run));
     page.append(...(await Report.runSections(facts.run, facts.name)).filter(Boolean));

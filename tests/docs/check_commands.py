@@ -18,7 +18,7 @@ from pathlib import Path
 
 # In this order: later pages use what earlier ones made.
 PAGES = ["README.md", "docs/user/tutorial.md", "docs/user/tutorial-mortar.md", "docs/user/report.md", "docs/user/exports.md",
-         "docs/user/python.md", "docs/user/dakota.md", "docs/user/choices.md"]
+         "docs/user/python.md", "docs/user/dakota.md", "docs/user/choices.md", "docs/user/many-hosts.md"]
 
 # Beginnings of commands that are tried elsewhere.
 ELSEWHERE = {
@@ -29,6 +29,11 @@ ELSEWHERE = {
     "python3 -m venv": "python.test_install",
     "my-environment/bin/pip": "python.test_install",
     "PYTHONPATH=build/release/python python3": "python.test_examples",
+    "perfora optimize designs/study-quick.toml -o out/study-shared": "tests/app/test_shared_commands.cpp",
+    "perfora work ": "tests/app/test_shared_commands.cpp",
+    "perfora ask ": "tests/app/test_shared_commands.cpp",
+    "perfora worker ": "tests/app/test_shared_commands.cpp",
+    "perfora tell ": "tests/app/test_shared_commands.cpp",
     "perfora evaluate designs/quick.toml --dakota": "tests/app/test_dakota.cpp, which writes the parameters",
 }
 
@@ -93,6 +98,11 @@ def main():
     for name in ("designs", "docs"):
         (folder / name).symlink_to(source / name)
     failed, count = [], 0
+    for page in sorted((source / "docs/user").glob("*.md")):
+        name = str(page.relative_to(source))
+        if name not in PAGES and any(what == "run" for what, *rest in parts(page.read_text())):
+            failed.append(name)
+            print(f"FAILED: {name} has commands and is not among the pages of this script")
     for name in PAGES:
         for what, *rest in parts((source / name).read_text()):
             if what == "save":
@@ -110,7 +120,7 @@ def main():
             if ended.returncode != 0:
                 failed.append(command)
                 print(f"FAILED with exit code {ended.returncode}\n{ended.stdout[-2000:]}{ended.stderr[-2000:]}")
-    print(f"{len(failed)} of {count} commands failed" if failed else f"{count} commands of {len(PAGES)} pages run")
+    print(f"{len(failed)} failed of {count} commands" if failed else f"{count} commands of {len(PAGES)} pages run")
     return 1 if failed or count == 0 else 0
 
 
