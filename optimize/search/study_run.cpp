@@ -36,7 +36,7 @@ bool may_change(const Difference& one) {
 constexpr double margin = 1.2;
 
 /// What is asked first says it.
-std::string stage_of(const Plan& plan, const Study& study) {
+std::string stage_now(const Plan& plan, const Study& study) {
   if (plan.wanted.empty()) return plan.finished ? "finished" : "waiting";
   const int replicate = plan.wanted.front().request.replicate;
   if (replicate >= first_confirming_replicate) return "confirmation";
@@ -159,7 +159,7 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
 
 /// Computed after every answer, not at every look at it.
 std::string StudyRun::standing_now() {
-  std::string text = stage_of(plan_, study_);
+  std::string text = stage_now(plan_, study_);
   if (!plan_.best) return text;
   text += fmt::format(", best so far: {}, score {:.4g}", plan_.best->label, plan_.best_score.value);
   if (const auto verdict = verdict_of(*this))
