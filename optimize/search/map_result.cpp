@@ -79,7 +79,7 @@ const Visit* best_visit(const Study& study, const Plan& plan) {
 std::string standing_of_map(const Study& study, const Plan& plan) {
   const Visit* best = best_visit(study, plan);
   if (!best) return "map";
-  return fmt::format("map, best so far: {}, score {:.4g}", best->candidate->label, best->score);
+  return fmt::format("map, best so far: score {:.4g}, {}", best->score, best->candidate->label);
 }
 
 std::string best_of_map_text(const Study& study, const Plan& plan) {
