@@ -14,7 +14,7 @@ namespace perfora::optimize {
 
 /// What such a file holds besides [set].
 struct TableFileForm {
-  std::string kind;                   ///< "study", "sweep" or "calibration"
+  std::string kind;                   ///< results::kind_of_toml()
   std::vector<std::string> sections;  ///< whose keys a schema knows; the first one has the key `design`
   std::vector<std::string> tables;    ///< whose keys are those of the design, with values that are not the design's
   /// Looks at an entry of a section, or of no section that is known, before the schema takes it; may change its value

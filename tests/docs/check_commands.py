@@ -47,6 +47,7 @@ SHORTER = [
     (r"perfora tolerance ", " --set tolerance.replicates=1" + FAST),
     (r"perfora calibrate ", " --set calibrate.chart=false --set calibrate.maxeval=4 --set calibrate.tolerance=0.5 --set calibrate.replicates=1"
      " --set material_test.size=7mm"),
+    (r"perfora tolerance ", " --set tolerance.replicates=2" + FAST),
     (r"perfora evaluate (?!.*--elastic)", FAST),
     (r"perfora pack designs/table1", COARSE),
     (r"perfora test ", " --set material_test.size=7mm"),
