@@ -38,7 +38,7 @@ class PinnedTexts : public ::testing::TestWithParam<PinnedCommand> {};
 TEST_P(PinnedTexts, TextIsTheSame) {
   if (const std::string why = why_not(GetParam()); !why.empty()) GTEST_SKIP() << why;
   const WorkFolder work;
-  const Outcome outcome = work.run(GetParam().arguments + " --quiet");
+  const Outcome outcome = work.run(GetParam().arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   const std::string expected = read_text(pinned("answers/" + GetParam().name + ".txt"));
   EXPECT_EQ(comparable_text(outcome.output, expected), comparable_text(expected, expected));

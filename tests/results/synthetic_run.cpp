@@ -2,6 +2,7 @@
 #include "tests/results/synthetic_run.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -269,7 +270,17 @@ SyntheticRun make_run(double size, int holes, double mean_diameter, double until
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("perfora-report-" + name);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("perfora-report-" + name + "-" + std::to_string(::getpid()));
+  // Gone with the program; each process has its own, as tests run side by side.
+  static struct Made {
+    std::vector<std::filesystem::path> folders;
+    ~Made() {
+      std::error_code ignored;
+      for (const auto& one : folders) std::filesystem::remove_all(one, ignored);
+    }
+  } made;
+  made.folders.push_back(folder);
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
