@@ -95,7 +95,7 @@ WishVerdict judge(const Wish& wish, std::span<const Evaluation* const> replicate
     if (tried.measure == wish.measure && one.outcome == Outcome::missed && tried.candidates > 0 &&
         outside(wish, {tried.low, tried.high})) {
       one.outcome = Outcome::out_of_reach;
-      one.text += fmt::format("; the {} candidates tried gave {}", tried.candidates,
+      one.text += fmt::format("; the {} designs tried gave {}", tried.candidates,
                               io::quantities({tried.low, tried.high}, wish.measure->dimension, " to "));
     }
   return one;

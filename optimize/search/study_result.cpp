@@ -33,7 +33,7 @@ std::string window_text(const results::MeasureOptions& measures) {
   return fmt::format("over strain {:g} to {:g}", measures.plateau_start, measures.plateau_end);
 }
 
-/// What all candidates that were simulated reached of each wish.
+/// What all designs that were simulated, the start among them, reached of each wish.
 std::vector<results::Reach> reach_of(const StudyRun& run) {
   const results::Target& target = run.study().target;
   const auto recorded = results::recorded_measures(target);
@@ -41,9 +41,9 @@ std::vector<results::Reach> reach_of(const StudyRun& run) {
   for (const results::Wish& wish : results::wishes(target)) {
     const auto place = std::find(recorded.begin(), recorded.end(), wish.measure) - recorded.begin();
     results::Reach reach{wish.measure};
-    const auto add = [&](const Visit& visit) {
-      if (!visit.detail.valid) return;
-      const double mean = visit.detail.recorded[static_cast<std::size_t>(place)];
+    const auto add = [&](const Score& score) {
+      if (!score.valid) return;
+      const double mean = score.recorded[static_cast<std::size_t>(place)];
       if (!std::isfinite(mean)) return;
       reach.low = reach.candidates == 0 ? mean : std::min(reach.low, mean);
       reach.high = reach.candidates == 0 ? mean : std::max(reach.high, mean);
@@ -52,10 +52,16 @@ std::vector<results::Reach> reach_of(const StudyRun& run) {
     // Levels do not carry over from one fidelity to another.
     const Study& study = run.study();
     if (study.map_fidelity == study.verify_fidelity)
-      for (const Visit& visit : run.plan().map) add(visit);
+      for (const Visit& visit : run.plan().map) add(visit.detail);
+    // What the start reached on fresh seeds counts for more than the few of the search.
+    const Finals& finals = run.plan().finals;
+    if (finals.replicates > 0)
+      add(finals.start);
+    else if (study.verify_fidelity == 0)
+      add(run.plan().start.detail);
     if (study.verify_fidelity == 0)
       for (const Trace& trace : run.plan().traces)
-        for (const Visit& visit : trace.visits) add(visit);
+        for (const Visit& visit : trace.visits) add(visit.detail);
     all.push_back(reach);
   }
   return all;

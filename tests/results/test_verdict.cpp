@@ -205,7 +205,7 @@ TEST(Verdict, OutOfReachIsSaidWhereEveryCandidateFellShort) {
   const Measure* plateau = measure_called("plateau_stress");
   const Verdict found = verdict(wish(1.5e6), steady, true, {{plateau, 12, 2e4, 3.7e5}});
   EXPECT_EQ(found.outcome, Outcome::out_of_reach);
-  EXPECT_NE(found.text.find("the 12 candidates tried gave 20 to 370 kPa"), std::string::npos) << found.text;
+  EXPECT_NE(found.text.find("the 12 designs tried gave 20 to 370 kPa"), std::string::npos) << found.text;
   EXPECT_EQ(verdict(wish(1.5e6), steady, true, {{plateau, 12, 2e4, 1.4e6}}).outcome, Outcome::missed);
 }
 
