@@ -74,6 +74,25 @@ TEST_F(StudyRunTest, SaysHowItStands) {
   EXPECT_NE(last.find(", verdict so far: "), std::string::npos) << last;
 }
 
+// A wish that the start keeps is not out of reach, whatever the candidates of the search gave.
+TEST_F(StudyRunTest, WhatTheStartReachedIsNotOutOfReach) {
+  const auto outcome = [&](const std::string& name, double peak_of_start) {
+    const auto evaluate = [peak_of_start](const Request& request) {
+      Evaluation evaluation = fake_evaluation(request);
+      const bool start = std::abs(request.design->layout.diameter - 0.016) < 1e-9;
+      evaluation.summary.first_peak_stress = start ? peak_of_start : 1e6;
+      return evaluation;
+    };
+    std::string text = study_text("maxeval = 8\nreplicates = 2\nfinal_replicates = 3\nalgorithm = \"GN_DIRECT_L\"");
+    const std::string target = "plateau_stress = \"0.2 MPa\"\n";
+    text.replace(text.find(target), target.size(), target + "limit.first_peak_stress = \"0.4 MPa\"\n");
+    StudyRun run(study(text), options(name, evaluate));
+    return finish(run).at("verdict").at("outcome").get<std::string>();
+  };
+  EXPECT_EQ(outcome("kept", 3e5), "missed");
+  EXPECT_EQ(outcome("broken", 9e5), "out of reach");
+}
+
 TEST_F(StudyRunTest, ChildProcessesGiveWhatThisProcessGives) {
   StudyRun here(study(), options("here", fake_evaluation));
   WorkOptions children = options("children");
