@@ -56,10 +56,10 @@ int calibrate(const CalibrateFlags& flags) {
       report::plot_material_tests(options.folder / "confirmation.h5", options.folder / "confirmation.png");
   }
   write_report_beside(options.folder);
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   for (const std::string& text : result.not_met) io::log_warning("not met: " + text);
   if (result.status != results::RunStatus::stopped) io::log_info("written: " + options.folder.string());
-  if (!result.material_file.empty() && !flags.common.json && !flags.common.quiet)
+  if (!result.material_file.empty() && !flags.common.json)
     print_text(
         fmt::format("To use this material, write in a design (the path is relative to its file):\n[material]\n"
                     "from = \"{}\"\n",

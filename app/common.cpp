@@ -143,7 +143,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
       ->type_name("SIZE");
   command.add_flag("--json", flags.json, "Print one JSON object on standard output, everything else on standard error")
       ->group(output_group);
-  command.add_flag("--quiet", flags.quiet, "Nothing on success but warnings and what --json prints")
+  command.add_flag("--quiet", flags.quiet, "No log and no progress, only warnings, errors and the result")
       ->group(output_group);
   command.add_flag("--force", flags.force, "Replace an output that exists")->group(output_group);
 }
@@ -186,10 +186,6 @@ void print_record(const nlohmann::json& object, bool as_json, const std::string&
     print_json(object);
   else
     print_text(record_text(object, source));
-}
-
-void print_result(const nlohmann::json& object, const CommonFlags& flags) {
-  if (flags.json || !flags.quiet || object.value("status", "") != "completed") print_record(object, flags.json);
 }
 
 const std::string& command_line() {

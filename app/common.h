@@ -72,9 +72,6 @@ void print_text(const std::string& text);
 
 /// The readable summary of a result. Throws as print_record does.
 std::string record_text(const nlohmann::json& object, const std::string& source = "");
-/// What a command has made: its JSON, or its readable summary, which a quiet command keeps for work that did not
-/// succeed.
-void print_result(const nlohmann::json& object, const CommonFlags& flags);
 /// A result: its JSON, or its readable summary. Throws io::InputError, which names `source`, for a damaged object.
 void print_record(const nlohmann::json& object, bool as_json, const std::string& source = "");
 

@@ -79,10 +79,10 @@ int evaluate_one(const EvaluateFlags& flags) {
   }
   log_warnings(optimize::validity_warnings(evaluation, design.design().solver.loading));
   const auto record = optimize::evaluation_record(design, evaluation);
-  if (!flags.common.json && !flags.common.quiet && on_terminal())
+  if (!flags.common.json && on_terminal())
     print_text(screen_text(record, evaluation.curve, options.run_file.string()));
   else
-    print_result(record, flags.common);
+    print_record(record, flags.common.json);
   say_how_it_ended(evaluation.status, evaluation.reason, options.run_file.string(), "the same command and --resume");
   return exit_code_of(evaluation.status);
 }
@@ -126,7 +126,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   const auto record = optimize::to_json(answer);
   const bool reached = answer.status == results::RunStatus::completed;
   if (reached) optimize::write_elastic_file(output, design, answer, record, command_line());
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   if (reached)
     io::log_info("written: " + output.string());
   else
@@ -159,7 +159,7 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   const optimize::Ensemble ensemble = optimize::evaluate_ensemble(design, options);
   const auto record = optimize::to_json(ensemble);
   if (!ensemble.replicates.empty()) write_report_beside(options.folder);
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   say_how_it_ended(ensemble.status, ensemble.reason, options.folder.string(), "the same command and --resume");
   return exit_code_of(ensemble.status);
 }

@@ -59,7 +59,7 @@ int map_study(const MapFlags& flags) {
   nlohmann::json object = to_json(record);
   object["status"] = results::status_name(run.status());
   object["reason"] = run.reason();
-  print_result(object, flags.common);
+  print_record(object, flags.common.json);
   if (run.status() != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (map.csv, map.json, picture map.png); take it in a study with --map {}",
                              options.folder.string(), options.folder.string()));

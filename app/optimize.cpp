@@ -113,7 +113,7 @@ int optimize_study(const OptimizeFlags& flags) {
   }
   if (run.plan().best) draw(run);
   write_report_beside(options.folder);
-  print_result(optimize::to_json(run), flags.common);
+  print_record(optimize::to_json(run), flags.common.json);
   if (status != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{}{})", options.folder.string(),
                              run.plan().best ? ", best.toml, picture study.png" : "",

@@ -35,7 +35,7 @@ int pack(const PackFlags& flags) {
 
   const bool reached = packed.periodic.quality.reached;
   if (reached) optimize::write_pack_file(output, design, packed, record, command_line());
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   if (!reached) {
     io::log_error("the packing was not reached, nothing was written: " + packed.periodic.quality.reason);
     return exit_numerical;

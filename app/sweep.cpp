@@ -60,7 +60,7 @@ int sweep_designs(const SweepFlags& flags) {
   if (run.sweep().keys.run_files && !collapse)
     io::log_warning("no run file was kept: these simulations were run before sweep.run_files was set");
   const auto record = optimize::to_json(run);
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   if (run.status() != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
                              options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));

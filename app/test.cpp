@@ -47,7 +47,7 @@ int test(const TestFlags& flags) {
     optimize::write_material_tests(output, design, tests, command_line());
     report::plot_material_tests(output, picture);  // NOLINT(readability-suspicious-call-argument): test_file, out
   }
-  print_result(record, flags.common);
+  print_record(record, flags.common.json);
   if (tests.status == results::RunStatus::failed) io::log_error("a test gave no strength: " + tests.reason);
   if (whole) io::log_info("written: " + output.string() + ", " + picture.string());
   return exit_code_of(tests.status);

@@ -48,7 +48,7 @@ int analyse(const ToleranceFlags& flags) {
   optimize::write_results(tolerance, run);
   draw_campaign(options.folder, options.folder / "sweep.png");
   write_report_beside(options.folder);
-  print_result(optimize::to_json(tolerance, run), flags.common);
+  print_record(optimize::to_json(tolerance, run), flags.common.json);
   if (run.status() != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (tolerance.csv, tolerance.json; tables and picture sweep.png of all blocks)",
                              options.folder.string()));
