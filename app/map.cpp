@@ -28,12 +28,8 @@ std::vector<std::string> overrides(const MapFlags& flags) {
 }
 
 optimize::WorkOptions run_options(const MapFlags& flags, const optimize::Study& study) {
-  optimize::WorkOptions options;
-  options.folder = output_or_default(flags.output, default_name(flags.study, "-map"));
-  options.resume = flags.resume;
-  options.force = flags.common.force;
-  options.command_line = command_line();
-  options.cancellation = stop_token();
+  optimize::WorkOptions options =
+      work_options(flags.common, output_or_default(flags.output, default_name(flags.study, "-map")), flags.resume);
   const std::int64_t together = std::int64_t{study.keys.map.designs} * study.keys.map.replicates;
   options.make_executor =
       worker_executor(flags.workers, study.keys.execution,

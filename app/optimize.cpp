@@ -32,12 +32,8 @@ struct OptimizeFlags {
 };
 
 optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::Study& study) {
-  optimize::WorkOptions options;
-  options.folder = output_or_default(flags.output, default_name(flags.study, "-result"));
-  options.resume = flags.resume;
-  options.force = flags.common.force;
-  options.command_line = command_line();
-  options.cancellation = stop_token();
+  optimize::WorkOptions options =
+      work_options(flags.common, output_or_default(flags.output, default_name(flags.study, "-result")), flags.resume);
   options.results_written = report_renewal(options.folder);
   options.make_executor =
       worker_executor(flags.workers, study.keys.execution, optimize::useful_workers(study, flags.workers.workers),
@@ -74,7 +70,6 @@ results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run)
   ProgressLine progress("best design", flags.common.quiet);
   optimize::EvaluateOptions options;
   options.threads = flags.common.thread_count();
-  options.cancellation = stop_token();
   options.command_line = command_line();
   options.progress = progress.callback();
   const optimize::Evaluation evaluation = optimize::evaluate_best(run, options);

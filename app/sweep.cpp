@@ -25,13 +25,9 @@ struct SweepFlags {
 };
 
 optimize::WorkOptions run_options(const SweepFlags& flags, const Sweep& sweep) {
-  optimize::WorkOptions options;
-  options.folder = output_or_default(flags.output, default_name(flags.sweep, "-result"));
-  options.resume = flags.resume;
-  options.force = flags.common.force;
-  options.command_line = command_line();
+  optimize::WorkOptions options =
+      work_options(flags.common, output_or_default(flags.output, default_name(flags.sweep, "-result")), flags.resume);
   options.keep_run_files = sweep.keys.run_files;
-  options.cancellation = stop_token();
   options.results_written = report_renewal(options.folder);
   options.make_executor = worker_executor(flags.workers, sweep.keys.execution, sweep.workers(flags.workers.workers),
                                           flags.common, options.folder);

@@ -24,12 +24,8 @@ struct ToleranceFlags {
 };
 
 optimize::WorkOptions run_options(const ToleranceFlags& flags, const Tolerance& tolerance) {
-  optimize::WorkOptions options;
-  options.folder = output_or_default(flags.output, default_name(flags.design, "-tolerance"));
-  options.resume = flags.resume;
-  options.force = flags.common.force;
-  options.command_line = command_line();
-  options.cancellation = stop_token();
+  optimize::WorkOptions options = work_options(
+      flags.common, output_or_default(flags.output, default_name(flags.design, "-tolerance")), flags.resume);
   options.results_written = report_renewal(options.folder);
   options.make_executor = worker_executor(flags.workers, tolerance.keys.execution,
                                           tolerance.sweep.workers(flags.workers.workers), flags.common, options.folder);
@@ -39,12 +35,15 @@ optimize::WorkOptions run_options(const ToleranceFlags& flags, const Tolerance& 
 int analyse(const ToleranceFlags& flags) {
   refuse_resume_with_force(flags.resume, flags.common.force);
   const Tolerance tolerance = optimize::read_tolerance(flags.design, flags.common.overrides());
-  const optimize::WorkOptions options = run_options(flags, tolerance);
+  optimize::WorkOptions options = run_options(flags, tolerance);
+  ProgressLine progress("tolerance analysis", flags.common.quiet);
+  watch_on_terminal(options, progress);
   optimize::SweepRun run(tolerance.sweep, options);
   log_warnings(tolerance.sweep.warnings);
   for (const optimize::ToleranceCase& one : tolerance.cases)
     if (!one.left_out.empty()) io::log_warning(fmt::format("{} is left out: {}", one.label, one.left_out));
   run.run();
+  progress.finish(run.reason());
   optimize::write_results(tolerance, run);
   draw_campaign(options.folder, options.folder / "sweep.png");
   write_report_beside(options.folder);

@@ -43,6 +43,16 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const Worke
                                      common.memory_allowed()});
 }
 
+optimize::WorkOptions work_options(const CommonFlags& common, const std::filesystem::path& folder, bool resume) {
+  optimize::WorkOptions options;
+  options.folder = folder;
+  options.resume = resume;
+  options.force = common.force;
+  options.command_line = command_line();
+  options.cancellation = stop_token();
+  return options;
+}
+
 void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line) {
   if (!io::rewrites_progress()) return;
   options.line_an_answer = false;

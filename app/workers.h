@@ -34,6 +34,10 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const Worke
                                                                      int workers, const CommonFlags& common,
                                                                      const std::filesystem::path& folder);
 
+/// What all work in a folder takes from the flags: the folder, whether it goes on or replaces what is there, the
+/// command line, and the stop signals.
+optimize::WorkOptions work_options(const CommonFlags& common, const std::filesystem::path& folder, bool resume);
+
 /// On a terminal: one line with percent, time left and how the work stands instead of a line an evaluation. `line` must
 /// outlive the work.
 void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line);

@@ -40,6 +40,12 @@ class ModelSearcherTest : public testing::Test {
                    arms, constraints)));
   }
 
+  /// 24 Sobol points, asked for but not answered, in one trace.
+  std::vector<Trace> sobol_map(CandidateBook& book, const Answers& known) const {
+    const Study map = study("sobol", 24);
+    return map.searcher->ask(stage_of(map), CandidateStore(map, book, known));
+  }
+
   /// Asks and answers until the stage has ended; what was asked for the first time goes to `asked`, call by call.
   static std::vector<Trace> carried_out(const Study& study, CandidateBook& book, Answers& answers, SearchStage stage) {
     std::vector<Trace> traces;
@@ -148,12 +154,11 @@ TEST_F(ModelSearcherTest, BatchesAreGivenBackOrComputedAnew) {
 
 // A map that is told is learnt from: no Sobol points are asked for, and the first batch lies near the optimum.
 TEST_F(ModelSearcherTest, GoesOnFromAMap) {
-  const Study one = study("model", 4), map = study("sobol", 24);
+  const Study one = study("model", 4);
   CandidateBook book(one);
   Answers known;
   CandidateStore store(one, book, known);
-  const CandidateStore of_map(map, book, known);
-  const std::vector<Trace> mapped = map.searcher->ask(stage_of(map), of_map);
+  const std::vector<Trace> mapped = sobol_map(book, known);
   for (const Visit& visit : mapped.at(0).visits) {
     known.add(book.key(*visit.candidate, 0), fake_evaluation(visit.candidate->request(0)));
     store.observe(*visit.candidate);
@@ -182,12 +187,11 @@ TEST_F(ModelSearcherTest, GoesOnFromAMap) {
 // points are those of GN_DIRECT_L, first the middle, then a third of the bounds from it (Jones, Perttunen and Stuckman
 // 1993).
 TEST_F(ModelSearcherTest, AModelThatIsOftenWrongIsNotUsed) {
-  const Study one = study("model", 4), map = study("sobol", 24);
+  const Study one = study("model", 4);
   CandidateBook book(one);
   Answers known;
   CandidateStore store(one, book, known);
-  const CandidateStore of_map(map, book, known);
-  const std::vector<Trace> mapped = map.searcher->ask(stage_of(map), of_map);
+  const std::vector<Trace> mapped = sobol_map(book, known);
   int number = 0;
   for (const Visit& visit : mapped.at(0).visits) {
     const bool strong = number++ % 6 == 0;
