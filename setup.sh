@@ -4,7 +4,7 @@
 #
 #   ./setup.sh             compiler and libraries
 #   ./setup.sh --viewers   also the programs that some tests need: ParaView, LAMMPS, ase, ezdxf for exports, Chromium for
-#                          reports, doxygen, what tests and examples in Python use (about 800 MB; used by .ci/run)
+#                          reports, doxygen, MPI, what tests and examples in Python use (about 800 MB; used by .ci/run)
 #   ./setup.sh --list      prints the package names, installs nothing
 set -euo pipefail
 
@@ -21,6 +21,7 @@ viewer_packages=(
   python3-paraview python3-h5py doxygen
   lammps python3-ase python3-ezdxf python3-pil xvfb xauth  # exports
   chromium chromium-driver python3-selenium  # reports
+  libopenmpi-dev openmpi-bin  # perfora-mpi and its tests
   mypy python3-scipy python3-matplotlib python3-optuna python3-dask  # tests and examples of the Python module
 )
 

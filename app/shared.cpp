@@ -14,6 +14,7 @@
 #include "io/text.h"
 #include "optimize/campaign/shared_folder.h"
 #include "optimize/campaign/shared_work.h"
+#include "optimize/campaign/worker_record.h"
 #include "optimize/evaluate/answers.h"
 #include "results/campaign_folder.h"
 
@@ -137,10 +138,7 @@ int tell(const SharedFlags& flags) {
   answer.key = shared->key;
   const json record = evaluation_in(flags.answer);
   try {
-    if (record.contains("trouble"))
-      answer.trouble = record.at("trouble").get<std::string>();
-    else
-      answer.evaluation = results::evaluation_from_json(record);
+    optimize::take_record(record, answer);
   } catch (const std::exception& error) {
     throw io::InputError({flags.answer, 0, ""}, fmt::format("is no evaluation: {}", error.what()),
                          "what `perfora worker` printed for the request", "evaluate the request again");

@@ -7,14 +7,12 @@
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
-#include <new>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "optimize/evaluate/request.h"
+#include "optimize/campaign/worker_record.h"
 
 namespace perfora::app {
 
@@ -69,33 +67,13 @@ class LineWriter {
   std::thread thread_;
 };
 
-/// What the worker says for a request, and whether it was told to stop. A design that this program cannot read is a
-/// failed evaluation like one that cannot be evaluated; what is not the design's fault is a trouble.
-std::pair<nlohmann::json, bool> answer(const nlohmann::json& record, int threads, double memory) {
-  const auto trouble = [](const std::string& text) { return std::pair{nlohmann::json{{"trouble", text}}, false}; };
-  try {
-    const auto evaluation =
-        optimize::evaluate_request(optimize::request_from_json(record), threads, stop_token(), memory);
-    return {results::to_json(evaluation, true), evaluation.status == results::RunStatus::stopped};
-  } catch (const io::InputError& error) {
-    return {results::to_json(optimize::failed_evaluation(error.what(), record.at("replicate").get<int>()), true),
-            false};
-  } catch (const io::Cancelled&) {
-    return {trouble("stopped").first, true};
-  } catch (const std::bad_alloc&) {
-    return trouble("the worker ran out of memory");
-  } catch (const std::exception& error) {
-    return trouble(error.what());
-  }
-}
-
 int work(int threads, double memory) {
   LineWriter lines;
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
     lines.begin();
-    const auto [said, stopped] = answer(nlohmann::json::parse(line), threads, memory);
+    const auto [said, stopped] = optimize::evaluate_record(nlohmann::json::parse(line), threads, stop_token(), memory);
     lines.end(said);
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.

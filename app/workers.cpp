@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/program.h"
 #include "io/progress.h"
 #include "optimize/campaign/shared_folder.h"
 
@@ -38,9 +39,9 @@ std::function<std::unique_ptr<optimize::Executor>()> worker_executor(const Worke
                                                                      int workers, const CommonFlags& common,
                                                                      const std::filesystem::path& folder) {
   if (flags.shared) return [folder] { return optimize::make_shared_executor(folder); };
-  return optimize::worker_processes({std::filesystem::read_symlink("/proc/self/exe"), workers, common.thread_count(),
-                                     flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit,
-                                     common.memory_allowed()});
+  return evaluators({std::filesystem::read_symlink("/proc/self/exe"), workers, common.thread_count(),
+                     flags.time_limit > 0.0 ? flags.time_limit : of_file.time_limit, common.memory_allowed()},
+                    flags.workers);
 }
 
 optimize::WorkOptions work_options(const CommonFlags& common, const std::filesystem::path& folder, bool resume) {

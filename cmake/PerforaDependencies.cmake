@@ -12,6 +12,11 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(PkgConfig REQUIRED)
+option(PERFORA_MPI "Build perfora-mpi where MPI is" ON)
+if(PERFORA_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)  # the interface of C alone
+  find_package(MPI QUIET COMPONENTS CXX)
+endif()
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 # nlopt_cxx holds GN_AGS as well, which the plain library leaves out.
 pkg_search_module(nlopt REQUIRED IMPORTED_TARGET nlopt_cxx nlopt)

@@ -17,6 +17,7 @@
 #include "optimize/campaign/executor.h"
 #include "optimize/campaign/time_limit.h"
 #include "optimize/campaign/worker_process.h"
+#include "optimize/campaign/worker_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -201,11 +202,7 @@ class ChildExecutor final : public Executor {
     if (!child.job) return lose(child, "it was not asked");
     Answer answer{child.job->key, {}, seconds_of(child)};
     try {
-      if (record.is_discarded()) throw std::runtime_error("no JSON");
-      if (record.contains("trouble"))
-        answer.trouble = record.at("trouble").get<std::string>();
-      else
-        answer.evaluation = results::evaluation_from_json(record);
+      take_record(record, answer);
     } catch (const std::exception& error) {
       return lose(child, fmt::format("the worker's answer cannot be read ({})", error.what()));
     }

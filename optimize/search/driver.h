@@ -26,7 +26,8 @@ struct Wanted {
 
 /// Best and start design on fresh seeds, pair by pair.
 struct Finals {
-  int replicates = 0;                             ///< requested
+  int replicates = 0;                             ///< requested of the best
+  int start_replicates = 0;                       ///< requested of the start: the first of them
   int first = 0;                                  ///< replicate that they begin with
   std::size_t fidelity = 0;                       ///< index in Study::fidelities
   int pairs = 0;                                  ///< both simulations gave a plateau

@@ -23,7 +23,7 @@ void compare(Finals& finals) {
   if (finals.pairs < 2) return;
   finals.gain_error = gain.standard_deviation / std::sqrt(static_cast<double>(finals.pairs));
   finals.gain_interval = gain.confidence_95;
-  finals.significant = finals.pairs == finals.replicates && finals.pairs >= results::fewest_replicates &&
+  finals.significant = finals.pairs == finals.start_replicates && finals.pairs >= results::fewest_replicates &&
                        finals.gain > finals.gain_interval;
 }
 
@@ -124,6 +124,7 @@ bool Driver::View::run_race() {
 bool Driver::View::run_verification() {
   const int count = study.keys.final_replicates;
   plan.finals.replicates = count;
+  plan.finals.start_replicates = study.keys.start_final_replicates();
   plan.finals.fidelity = study.verify_fidelity;
   const int first = plan.finals.first = study.keys.replicates;
   if (count == 0 || !plan.best) return true;
@@ -140,7 +141,8 @@ bool Driver::View::run_verification() {
     plan.verified.push_back(one);
   }
   if (plan.verified.size() < designs.size()) {
-    if (plan.start.candidate->violation <= 0.0) evaluations(*plan.start.candidate, first, count, study.verify_fidelity);
+    if (plan.start.candidate->violation <= 0.0)
+      evaluations(*plan.start.candidate, first, plan.finals.start_replicates, study.verify_fidelity);
     return false;
   }
   const auto better = [](const Verified& a, const Verified& b) {
@@ -161,8 +163,8 @@ bool Driver::View::compare_with_start(int first) {
   const Candidate& start = *plan.start.candidate;
   const auto best = evaluations(*plan.best, first, finals.replicates, finals.fidelity);
   const bool has_start = start.violation <= 0.0;
-  const auto begin =
-      has_start ? evaluations(start, first, finals.replicates, finals.fidelity) : std::vector<const Evaluation*>{};
+  const auto begin = has_start ? evaluations(start, first, finals.start_replicates, finals.fidelity)
+                               : std::vector<const Evaluation*>{};
   if (best.empty() || (has_start && begin.empty())) return false;
   finals.best = score_of(study.target, best);
   finals.start = score_of(study.target, begin);

@@ -48,7 +48,10 @@ struct StudyKeys {
   std::string allocation =
       "equal";         ///< of maxeval to arms: "equal", "proportional", or a list of numbers, one an arm ("6, 6, 4")
   int replicates = 3;  ///< a candidate; replicate r has the same seeds for every candidate
-  int final_replicates = 5;    ///< fresh seeds on which best and start are run again; 0: none
+  int final_replicates = 5;  ///< fresh seeds on which the best is run again; 0: none
+  /// The start runs on the first of them: pair by pair they tell what the search has gained, while each further one
+  /// makes the verdict on the best narrower, which is what a user acts on.
+  int start_final_replicates() const { return final_replicates < 5 ? final_replicates : 5; }
   double until = 0.0;          ///< engineering strain; 0: as the design says
   int starts = 1;              ///< arms that differ only in where a local algorithm begins
   double initial_step = 0.25;  ///< of local algorithms, as a fraction of the bounds

@@ -80,10 +80,10 @@ StudyPlan plan_of(const Study& study) {
   if (!keys.refine.empty())
     add(stage("refine", 0, keys.refine_maxeval, std::int64_t{keys.refine_maxeval} * keys.replicates));
   add(stage("race", 0, keys.race.finalists, race_runs(keys.race)));
-  const std::int64_t ends = verified(study) + 1;  // and the start
-  add(stage("verify", study.verify_fidelity, ends, ends * keys.final_replicates));
+  const std::int64_t ends = verified(study), start = keys.start_final_replicates();
+  add(stage("verify", study.verify_fidelity, ends + 1, ends * keys.final_replicates + start));
   // Another design than the first of the race may come out best; it and the start are then run once more.
-  if (verified(study) > 1) add(stage("confirm", study.verify_fidelity, 2, std::int64_t{2} * keys.final_replicates));
+  if (verified(study) > 1) add(stage("confirm", study.verify_fidelity, 2, std::int64_t{keys.final_replicates} + start));
   return plan;
 }
 

@@ -15,10 +15,10 @@ geometry::PerforationLayout layout_of(const DesignFile& design) {
   return geometry::place_perforations(design.design().layout, design.design().seeds.effective(0).layout);
 }
 
-/// Curves on the fresh seeds where they were run, otherwise of the search.
-std::vector<const Evaluation*> shown(StudyRun& run, const Candidate& candidate) {
+/// Evaluations on the first `count` fresh seeds where they were run, otherwise of the search.
+std::vector<const Evaluation*> shown(StudyRun& run, const Candidate& candidate, int count) {
   const auto& keys = run.study().keys;
-  const auto fresh = run.known(candidate, keys.replicates, keys.final_replicates);
+  const auto fresh = run.known(candidate, keys.replicates, count);
   return fresh.empty() ? run.known(candidate, 0, keys.replicates) : fresh;
 }
 
@@ -98,8 +98,8 @@ results::StudyRecord study_record(StudyRun& run) {
     record.outcome = results::outcome_name(verdict->outcome);
   }
   if (!plan.best) return record;
-  const auto best = shown(run, *plan.best);
-  const auto start = shown(run, *plan.start.candidate);
+  const auto best = shown(run, *plan.best, plan.finals.replicates);
+  const auto start = shown(run, *plan.start.candidate, plan.finals.start_replicates);
   const auto best_score = score_of(study.target, best), start_score = score_of(study.target, start);
   record.best = curves(best);
   record.start = curves(start);

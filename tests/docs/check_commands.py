@@ -30,6 +30,7 @@ ELSEWHERE = {
     "my-environment/bin/pip": "python.test_install",
     "PYTHONPATH=build/release/python python3": "python.test_examples",
     "perfora optimize designs/study-quick.toml -o out/study-shared": "tests/app/test_shared_commands.cpp",
+    "mpirun -n 4 perfora-mpi ": "tests/app/test_mpi.cpp",
     "perfora work ": "tests/app/test_shared_commands.cpp",
     "perfora ask ": "tests/app/test_shared_commands.cpp",
     "perfora worker ": "tests/app/test_shared_commands.cpp",

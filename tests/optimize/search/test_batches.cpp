@@ -12,6 +12,7 @@
 #include "results/campaign_folder.h"
 #include "tests/optimize/search/batch_searcher.h"
 #include "tests/optimize/search/study_support.h"
+#include "tests/support/thinned.h"
 
 namespace perfora::optimize {
 namespace {
@@ -100,7 +101,7 @@ TEST_F(Batches, NeitherWorkersNorKillsChangeThem) {
     std::filesystem::remove_all(folder / "workers");
   }
   const int evaluations = expected.at("evaluations").get<int>();
-  for (int kill_at = 1; kill_at <= evaluations; kill_at += 4) {
+  for (int kill_at = 1; kill_at <= evaluations; kill_at += test::thinned(4, 13)) {
     const pid_t child = ::fork();
     if (child == 0) {
       int count = 0;

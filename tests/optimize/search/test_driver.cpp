@@ -8,6 +8,7 @@
 #include "optimize/search/driver.h"
 #include "optimize/search/nlopt_search.h"
 #include "tests/optimize/search/study_support.h"
+#include "tests/support/thinned.h"
 
 namespace perfora::optimize {
 namespace {
@@ -119,10 +120,10 @@ TEST_F(DriverTest, NeitherWorkersNorTheOrderOfAnswersChangeAnything) {
               "rows = [1, 2]\ncolumns = [2, 3]");
     std::string first;
     for (const std::size_t workers : {1U, 2U, 5U, 64U})
-      for (const unsigned seed : {1U, 2U}) {
+      for (int seed = 1; seed <= test::thinned(2, 1); ++seed) {
         Answers answers;
         Driver driver(arms);
-        const std::string text = digest(search(driver, answers, fake_with_failures, workers, seed));
+        const std::string text = digest(search(driver, answers, fake_with_failures, workers, static_cast<unsigned>(seed)));
         if (first.empty()) first = text;
         EXPECT_EQ(text, first) << algorithm << " with " << workers << " workers";
       }
@@ -216,8 +217,18 @@ TEST_F(DriverTest, ComparesBestAndStartPairByPair) {
   const double mean = sum / 4.0, error = std::sqrt((squares - 4.0 * mean * mean) / 3.0 / 4.0);
   EXPECT_NEAR(plan.finals.gain, mean, 1e-9);
   EXPECT_NEAR(plan.finals.gain_error, error, 1e-9);
-  EXPECT_NEAR(plan.finals.gain_interval, 3.182446 * error, 1e-6 * error);  // Student's t of 97.5 %, 3 degrees of freedom
+  EXPECT_NEAR(plan.finals.gain_interval, 3.182446 * error,
+              1e-6 * error);  // Student's t of 97.5 %, 3 degrees of freedom
   EXPECT_TRUE(plan.finals.significant);
+}
+
+TEST_F(DriverTest, TheStartRunsOnFiveFreshSeedsAtMost) {
+  const Searched searched(study("maxeval = 20\nfinal_replicates = 7"), fake_evaluation);
+  const Plan& plan = searched.plan;
+  EXPECT_EQ(plan.finals.best.replicates, 7);
+  EXPECT_EQ(plan.finals.start.replicates, 5);
+  EXPECT_EQ(plan.finals.pairs, 5);
+  EXPECT_TRUE(plan.finals.significant) << "every pair that was asked for is there";
 }
 
 TEST_F(DriverTest, ReportsNoGainWhenTheStartIsBest) {

@@ -48,6 +48,13 @@ TEST_F(StudyPlanTest, CountsEveryStageAtItsFidelity) {
   EXPECT_TRUE(stages.at("verify").measured);
   EXPECT_EQ(stages.at("confirm").runs, 10);
   EXPECT_DOUBLE_EQ(plan.seconds(), 20.0 * (40 + 3 + 30 + 6 + 18) + 300.0 * 25);
+
+  const StudyPlan more =
+      plan_of(read(study_text("maxeval = 10\nreplicates = 3\nfinal_replicates = 12\nfidelity = \"cheap\"") +
+                   "[race]\nfinalists = 6\nkeep = 2\n[verify]\nfidelity = \"fine\"\n" + ladder));
+  for (const PlannedStage& one : more.stages) stages[one.name] = one;
+  EXPECT_EQ(stages.at("verify").runs, 2 * 12 + 5) << "the start on five";
+  EXPECT_EQ(stages.at("confirm").runs, 12 + 5);
 }
 
 TEST_F(StudyPlanTest, ABudgetBecomesCountsThatKeepToIt) {

@@ -13,6 +13,7 @@
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "tests/optimize/search/study_support.h"
+#include "tests/support/thinned.h"
 
 namespace perfora::optimize {
 namespace {
@@ -111,7 +112,7 @@ TEST_F(StudyRunTest, KilledAtEveryEvaluationItEndsWithTheSameRecord) {
   const auto expected = finish(straight);
   const int evaluations = expected.at("evaluations").get<int>();
   ASSERT_GT(evaluations, 20);
-  for (int kill_at = 1; kill_at <= evaluations; kill_at += 3) {
+  for (int kill_at = 1; kill_at <= evaluations; kill_at += test::thinned(3, 11)) {
     const std::string name = "killed-" + std::to_string(kill_at);
     const pid_t child = ::fork();
     if (child == 0) {

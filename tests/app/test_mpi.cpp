@@ -1,0 +1,109 @@
+// What is here: studies by perfora-mpi as a user starts them: the result of one process, whatever happens to its ranks.
+// What is not: other ways to many processes (test_shared_commands.cpp).
+#include <cstdlib>
+
+#include "command_line.h"
+
+namespace perfora::test {
+namespace {
+
+/// More ranks than processors, and as root in a container: both are refused by Open MPI unless one says so. Its ranks
+/// are not bound to cores, which other tests use, too.
+constexpr const char* script_head =
+    "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1\n"
+    "export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl=self,vader,tcp "
+    "OMPI_MCA_btl_vader_single_copy_mechanism=none\n"
+    "export PERFORA='" PERFORA_PROGRAM "' PERFORA_MPI='" PERFORA_MPI_PROGRAM "'\n";
+
+class Mpi : public CommandLine {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "mpirun is missing";
+    CommandLine::SetUp();
+    write_study(4);
+  }
+  /// A study and its result by child processes, in the folder "one".
+  void write_study(int maxeval) {
+    fs::remove_all(folder_ / "one");
+    std::ofstream(folder_ / "s.toml") << "[study]\ndesign = \"d.toml\"\nmaxeval = " << maxeval
+                                      << "\nreplicates = 2\n"
+                                         "final_replicates = 3\n[target]\nplateau_stress = \"0.4 MPa\"\n"
+                                         "[variables]\n\"layout.diameter\" = [\"4 mm\", \"7 mm\"]\n"
+                                         "[arms]\nfamily = [\"square\", \"staggered\"]\nrows = [2]\n";
+    ASSERT_EQ(run("optimize s.toml -o one --no-run-file --workers 2 --quiet").exit_code, 0);
+  }
+  int shell(const std::string& script) const {
+    std::ofstream(folder_ / "script.sh") << "cd '" << folder_.string() << "'\n" << script_head << script << "\n";
+    const int status = std::system(("sh '" + (folder_ / "script.sh").string() + "'").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  json result(const std::string& folder) const {
+    json record = json::parse(read_text(folder_ / folder / "result.json"));
+    record.erase("performance");
+    return record;
+  }
+  bool has_finished(const std::string& folder) const {
+    return read_text(folder_ / folder / "journal.jsonl").find("\"event\":\"finished\"") != std::string::npos;
+  }
+  std::string messages() const { return read_text(folder_ / "err.txt"); }
+};
+
+TEST_F(Mpi, RanksGiveTheSameResult) {
+  EXPECT_EQ(shell("mpirun -n 4 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file > out.txt 2> err.txt"), 0)
+      << messages();
+  EXPECT_NE(messages().find("3 ranks that evaluate"), std::string::npos) << messages();
+  EXPECT_EQ(result("many"), result("one"));
+  EXPECT_EQ(read_text(folder_ / "many" / "best.toml"), read_text(folder_ / "one" / "best.toml"));
+  EXPECT_EQ(shell("mpirun -n 3 \"$PERFORA_MPI\" optimize s.toml -o two --no-run-file --workers 1 > out.txt 2> err.txt"),
+            0)
+      << messages();
+  EXPECT_EQ(result("two"), result("one"));
+}
+
+TEST_F(Mpi, AKilledRankEndsTheJobAndResumeGoesOn) {
+  // The youngest process is a rank that evaluates; the study is under way when its journal has an evaluation.
+  EXPECT_NE(
+      shell(
+          "mpirun -n 3 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file > out.txt 2> err.txt & job=$!\n"
+          "for i in $(seq 600); do grep -qs '\"event\":\"evaluation\"' many/journal.jsonl && break; sleep 0.05; done\n"
+          "kill -9 $(pgrep -n -f \"$PERFORA_MPI optimize s.toml -o many\")\nwait $job"),
+      0);
+  ASSERT_TRUE(fs::exists(folder_ / "many" / "journal.jsonl")) << messages();
+  ASSERT_FALSE(has_finished("many")) << "it was killed too late to tell";
+  EXPECT_EQ(run("optimize s.toml -o many --no-run-file --resume --quiet").exit_code, 0);
+  EXPECT_EQ(result("many"), result("one"));
+}
+
+TEST_F(Mpi, AStoppedJobGoesOn) {
+  write_study(20);  // mpirun takes a second to pass the signal on
+  EXPECT_NE(
+      shell(
+          "mpirun -n 3 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file > out.txt 2> err.txt & job=$!\n"
+          "for i in $(seq 600); do grep -qs '\"event\":\"evaluation\"' many/journal.jsonl && break; sleep 0.05; done\n"
+          "kill -TERM $job\nwait $job"),
+      0);
+  ASSERT_FALSE(has_finished("many")) << "it was stopped too late to tell";
+  EXPECT_EQ(shell("mpirun -n 2 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file --resume > out.txt 2> err.txt"),
+            0)
+      << messages();
+  EXPECT_EQ(result("many"), result("one"));
+}
+
+TEST_F(Mpi, TimeLimitsAreTroubles) {
+  EXPECT_EQ(
+      shell(
+          "mpirun -n 2 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file --time-limit 0.001 > out.txt 2> err.txt"),
+      3)
+      << messages();
+  EXPECT_NE(messages().find("took more than 0.001 s (time_limit), 3 times in a row"), std::string::npos) << messages();
+  EXPECT_EQ(run("optimize s.toml -o many --no-run-file --resume --quiet").exit_code, 0);
+  EXPECT_EQ(result("many"), result("one"));
+}
+
+TEST_F(Mpi, OneRankAloneIsRefused) {
+  EXPECT_EQ(shell("mpirun -n 1 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file > out.txt 2> err.txt"), 1);
+  EXPECT_NE(messages().find("mpirun -n 4 perfora-mpi"), std::string::npos) << messages();
+}
+
+}  // namespace
+}  // namespace perfora::test
