@@ -1,7 +1,8 @@
 // What is here: what the process that asks costs an evaluation, all stages of a study together: answers that take no
 // time are written to journal and histories, and the next requests are made. Prints one JSON object a size. What is
 // not: evaluations (run_all.py), the way between processes.
-// Usage: bench_coordinator FOLDER [evaluations...] ; FOLDER must not exist and lies on the disk that is measured
+// Usage: bench_coordinator FOLDER [algorithm, "sobol"] [evaluations at once, 1000] [evaluations...]
+// FOLDER must not exist and lies on the disk that is measured.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -41,15 +42,15 @@ optimize::Evaluation made_up(const optimize::Request& request) {
   return evaluation;
 }
 
-void measure(const fs::path& folder, int evaluations) {
+void measure(const fs::path& folder, const std::string& algorithm, int at_once, int evaluations) {
   fs::create_directories(folder);
   std::ofstream(folder / "design.toml")
       << "[cell]\nwidth = \"50 mm\"\nheight = \"50 mm\"\n[layout]\nfamily = \"square\"\ndiameter = \"16 mm\"\n"
          "rows = 2\ncolumns = 2\n";
   constexpr int replicates = 4;
-  const int together = std::min(1000, evaluations);
+  const int together = std::min(at_once, evaluations);
   std::ofstream(folder / "study.toml")
-      << "[study]\ndesign = \"design.toml\"\nalgorithm = \"sobol\"\nreplicates = " << replicates
+      << "[study]\ndesign = \"design.toml\"\nalgorithm = \"" << algorithm << "\"\nreplicates = " << replicates
       << "\nmaxeval = " << evaluations / replicates << "\nbatch = " << together / replicates
       << "\nfinal_replicates = 0\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n"
          "\"layout.diameter\" = [\"10 mm\", \"20 mm\"]\n\"layout.jitter\" = [0, \"1 mm\"]\n";
@@ -87,14 +88,16 @@ void measure(const fs::path& folder, int evaluations) {
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
   if (argc < 2 || fs::exists(argv[1])) {
-    fmt::print(stderr, "usage: bench_coordinator NEW_FOLDER [evaluations...]\n");
+    fmt::print(stderr, "usage: bench_coordinator NEW_FOLDER [algorithm] [evaluations at once] [evaluations...]\n");
     return 1;
   }
   perfora::io::set_verbosity(perfora::io::Verbosity::quiet);
-  const fs::path folder = argv[1];
-  if (argc == 2)
-    for (const int evaluations : {100, 1000, 4000})
-      perfora::benchmarks::measure(folder / std::to_string(evaluations), evaluations);
-  for (int k = 2; k < argc; ++k) perfora::benchmarks::measure(folder / argv[k], std::atoi(argv[k]));
+  const std::string algorithm = argc > 2 ? argv[2] : "sobol";
+  const int at_once = argc > 3 ? std::atoi(argv[3]) : 1000;
+  std::vector<int> sizes;
+  for (int k = 4; k < argc; ++k) sizes.push_back(std::atoi(argv[k]));
+  if (sizes.empty()) sizes = {100, 1000, 4000};
+  for (const int evaluations : sizes)
+    perfora::benchmarks::measure(fs::path(argv[1]) / std::to_string(evaluations), algorithm, at_once, evaluations);
   return 0;
 }
