@@ -5,6 +5,7 @@
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/reports.h"
 #include "app/workers.h"
 #include "optimize/search/map_result.h"
 #include "optimize/search/map_run.h"
@@ -49,7 +50,10 @@ int map_study(const MapFlags& flags) {
   run.run();
   progress.finish(run.reason());
   const results::MapRecord record = run.record();
-  if (!record.designs.empty()) draw_campaign(options.folder, options.folder / "map.png");
+  if (!record.designs.empty()) {
+    draw_campaign(options.folder, options.folder / "map.png");
+    write_report_beside(options.folder);
+  }
   for (const std::string& sentence : results::out_of_reach(record)) io::log_warning(sentence);
   if (const std::string best = optimize::best_of_map_text(run.study(), run.plan()); !best.empty()) io::log_info(best);
   nlohmann::json object = to_json(record);
@@ -57,8 +61,9 @@ int map_study(const MapFlags& flags) {
   object["reason"] = run.reason();
   print_record(object, flags.common.json);
   if (run.status() != results::RunStatus::stopped)
-    io::log_info(fmt::format("written: {} (map.csv, map.json, picture map.png); take it in a study with --map {}",
-                             options.folder.string(), options.folder.string()));
+    io::log_info(
+        fmt::format("written: {} (report.html, map.csv, map.json, picture map.png); take it in a study with --map {}",
+                    options.folder.string(), options.folder.string()));
   return say_how_work_ended(run.status(), run.troubles(), options.folder);
 }
 

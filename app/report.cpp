@@ -40,7 +40,7 @@ void add_report(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("report", "Write one HTML page about a run or a folder of work");
   command
       ->add_option("FILE", flags->input,
-                   "Run file R.h5, or the folder of a study, sweep, ensemble or calibration, finished or not")
+                   "Run file R.h5, or the folder of a study, map, sweep, ensemble or calibration, finished or not")
       ->required();
   command->add_option("-o,--output", flags->output, "Page to write (default: FILE's name + .html)")
       ->type_name("R.html");

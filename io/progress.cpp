@@ -132,7 +132,12 @@ std::string progress_text(const std::string& title, double fraction, double firs
                           const std::string& detail) {
   std::string text = fmt::format("{} {:.1f} %", title, 100.0 * fraction);
   const double rate = seconds > 0.0 ? (fraction - first_fraction) / seconds : 0.0;
-  if (rate > 0.0) text += fmt::format(", {:.3g} %/min, {} left", 6000.0 * rate, duration((1.0 - fraction) / rate));
+  if (rate > 0.0) {
+    const double a_minute = 6000.0 * rate;
+    const std::string speed =
+        a_minute < 100.0 ? fmt::format("{:.3g} %/min", a_minute) : fmt::format("{:.3g} %/s", a_minute / 60.0);
+    text += fmt::format(", {}, {} left", speed, duration((1.0 - fraction) / rate));
+  }
   return detail.empty() ? text : text + " | " + detail;
 }
 

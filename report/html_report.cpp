@@ -14,6 +14,7 @@
 #include "report/html/run_part.h"
 #include "results/campaign_folder.h"
 #include "results/formats.h"
+#include "results/map_record.h"
 #include "results/run_file.h"
 
 namespace perfora::report {
@@ -94,11 +95,13 @@ Part of_folder(const fs::path& folder, const ReportOptions& options) {
     part = sweep_part(record);
     if (const json verdict = verdict_facts(result); !verdict.is_null()) part.facts["verdict"] = verdict;
     if (kind == "ensemble") take_in_run(whole, folder / "replicate-000.h5", "The first replicate", options);
+  } else if (kind == "map") {
+    part = map_part(results::read_map_record(folder));
   } else if (kind == "calibration") {
     part = calibration_part(results::read_calibration_record(folder));
   } else {
-    throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, sweep, ensemble or calibration", "",
-                         "give a run file or a folder that perfora wrote");
+    throw io::InputError({folder.string(), 0, ""}, "this folder holds no study, map, sweep, ensemble or calibration",
+                         "", "give a run file or a folder that perfora wrote");
   }
   whole.facts["kind"] = kind;
   whole.facts["name"] = results::campaign_title(folder);

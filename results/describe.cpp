@@ -124,9 +124,8 @@ std::string kind_of_entries(const std::vector<io::Entry>& entries) {
   static const std::pair<const char*, const char*> sections[] = {
       {"study.", "study"}, {"sweep.", "sweep"}, {"calibrate.", "calibration"}, {"tolerance.", "tolerance"}};
   for (const auto& [section, kind] : sections)
-    if (std::any_of(entries.begin(), entries.end(),
-                    [&](const io::Entry& entry) { return entry.key.starts_with(section); }))
-      return kind;
+    for (const io::Entry& entry : entries)
+      if (entry.key.starts_with(section)) return kind;
   return "design";
 }
 

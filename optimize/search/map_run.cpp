@@ -23,7 +23,7 @@ MapRun::MapRun(Study study, WorkOptions options) : study_(std::move(study)), dri
 }
 
 std::vector<std::string> MapRun::own_files() const {
-  return {"journal.jsonl", "map.json", "map.csv", "map.png", "runs", "histories", "shared"};
+  return {"journal.jsonl", "map.json", "map.csv", "map.png", "report.html", "runs", "histories", "shared"};
 }
 
 json MapRun::identity() const {

@@ -6,6 +6,7 @@
 
 #include "report/html/part.h"
 #include "results/calibration_record.h"
+#include "results/map_record.h"
 #include "results/study_record.h"
 #include "results/sweep_record.h"
 
@@ -19,6 +20,9 @@ Part study_part(const results::StudyRecord& record, const std::filesystem::path&
 /// Facts: `subtitle`, `verdict`, `measures`, `groups` with their cases and curves, `base`, `measured`, `cases` (a row
 /// each for a table). `record` has its runs. An ensemble is one group of one case.
 Part sweep_part(const results::SweepRecord& record);
+
+/// Facts: `columns`, `rows` (a design each, SI), `ranges` (a row a measure), `wishes`, `out_of_reach`, `failed`.
+Part map_part(const results::MapRecord& record);
 
 /// Facts: `points`, `wanted`, `found`.
 Part calibration_part(const results::CalibrationRecord& record);

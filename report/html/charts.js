@@ -67,11 +67,11 @@ Report.markPlugin = (marks, linked) => {
       if (mark.kind === "x-band") {
         const left = x.getPixelForValue(mark.low), right = x.getPixelForValue(mark.high);
         ctx.fillRect(left, area.top, right - left, area.bottom - area.top);
-        if (mark.label) mark.bandTextAt = [left + 4, area.bottom - 17];
+        if (mark.label && right >= area.left && left <= area.right) mark.bandTextAt = [left + 4, area.bottom - 17];
       } else if (mark.kind === "y-band") {
         const top = clampY(mark.high), bottom = clampY(mark.low);
         ctx.fillRect(from, top, to - from, bottom - top);
-        if (mark.label) mark.bandTextAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
+        if (mark.label && bottom >= area.top && top <= area.bottom) mark.bandTextAt = [to - 4 - ctx.measureText(mark.label).width, top - 16];
       } else {
         ctx.beginPath();
         if (mark.kind === "x") {
@@ -144,6 +144,17 @@ Report.axis = (options, colourGrid) => {
   return axis;
 };
 
+/** The series with its points from left to right, and what belongs to each point beside it: Chart.js takes the ends of an axis
+ *  from the first and the last point. */
+Report.fromLeft = (series) => {
+  if (!series.points || series.points.every((point, k) => k === 0 || series.points[k - 1].x <= point.x)) return series;
+  const order = series.points.map((point, k) => k).sort((a, b) => series.points[a].x - series.points[b].x);
+  const moved = {...series};
+  for (const name of ["points", "colours", "rims", "info"])
+    if (Array.isArray(series[name])) moved[name] = order.map((k) => series[name][k]);
+  return moved;
+};
+
 /**
  * A figure with a chart. spec(): {x, y axes ({label, min, max, log, choices, stacked}), series, marks, linked, bars}, asked
  * again whenever the colours change. A series: {label, x, y (lists) or points ([{x, y}]), colour, width, dash, dots
@@ -164,7 +175,7 @@ Report.chart = (caption, spec, {tall = false, tools = null, note = ""} = {}) => 
   const build = () => {
     const what = spec();
     const grid = Report.colour("grid");
-    const datasets = what.series.map((series, k) => {
+    const datasets = what.series.map(Report.fromLeft).map((series, k) => {
       const colour = series.colour || Report.series(k);
       const line = series.line !== false;
       return {

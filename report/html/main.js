@@ -16,6 +16,14 @@ Report.verdict = (verdict, status, reason) => {
     verdict.note ? el("p", {class: "soft"}, verdict.note) : null);
 };
 
+/** In the place of a verdict: a map has none, but says what it does not come near. */
+Report.reach = (work) => {
+  const {el} = Report, far = work.out_of_reach.length > 0;
+  return el("div", {class: "verdict " + (far ? Report.markClass("out of reach") : "")}, el("strong", {class: "outcome"}, far ? "Out of reach of these designs" : work.wishes.length ? "Every wish lies within what was reached" : "No wish was stated"),
+    ...work.out_of_reach.map((sentence) => el("p", {}, sentence.replace(/^out of the reachable range: /, ""))),
+    el("p", {class: "soft"}, "A map shows what designs reach, each wish by itself. Whether one block keeps all of them is for a study to find and to show."));
+};
+
 Report.cards = (run) => {
   const wanted = ["plateau stress", "first peak stress", "cap ratio (largest stress / plateau)", "undulation", "densification strain", "energy absorbed to window end"];
   const rows = run.tables.flatMap((one) => one.rows);
@@ -25,13 +33,14 @@ Report.cards = (run) => {
 
 Report.build = async () => {
   const {el, facts} = Report, page = document.getElementById("page");
-  const kinds = {run: "Evaluation of a block", ensemble: "Ensemble of replicates", study: "Study", sweep: "Sweep", calibration: "Calibration of a material"};
+  const kinds = {run: "Evaluation of a block", ensemble: "Ensemble of replicates", study: "Study", map: "Map: what can be reached", sweep: "Sweep", calibration: "Calibration of a material"};
   page.append(el("header", {}, el("p", {class: "soft"}, kinds[facts.kind] || ""), el("h1", {}, facts.title), facts.block ? el("p", {class: "soft"}, facts.block) : null,
     facts.under_way ? el("p", {class: "notice"}, "The work goes on: this page is written anew once a minute and loads itself.") : null,
     !facts.under_way && facts.status && facts.status !== "completed" ? el("p", {class: "notice"}, `${facts.status}: ${facts.reason || ""}`) : null,
-    el("div", {class: "head"}, Report.verdict(facts.verdict, facts.status, facts.reason), el("aside", {class: "leaves-out"}, el("h3", {}, "What this model leaves out"), el("ul", {}, facts.left_out.map((text) => el("li", {}, text)))))));
+    el("div", {class: "head"}, facts.kind === "map" ? Report.reach(facts.work) : Report.verdict(facts.verdict, facts.status, facts.reason), el("aside", {class: "leaves-out"}, el("h3", {}, "What this model leaves out"), el("ul", {}, facts.left_out.map((text) => el("li", {}, text)))))));
   if (facts.run && facts.kind === "run") page.append(Report.cards(facts.run));
   if (facts.kind === "study") page.append(...Report.studySections(facts.work).filter(Boolean));
+  if (facts.kind === "map") page.append(...Report.mapSections(facts.work).filter(Boolean));
   if (facts.kind === "sweep" || facts.kind === "ensemble") page.append(...Report.sweepSections(facts.work, facts.kind === "ensemble").filter(Boolean));
   if (facts.kind === "calibration") page.append(...Report.calibrationSections(facts.work));
   // The verdict is painted before the numbers of the frames, which stand at the end of the page, are read and unpacked.

@@ -66,7 +66,7 @@ std::string script_json(const nlohmann::json& facts) {
 std::string html_page(const Part& whole, int renew_seconds) {
   std::string program;
   for (const char* name : {"data.js", "elements.js", "charts.js", "block_colours.js", "block_gl.js", "block_canvas.js",
-                           "viewer.js", "run.js", "study.js", "sweep.js", "main.js"})
+                           "viewer.js", "run.js", "scatter.js", "study.js", "map.js", "sweep.js", "main.js"})
     program += std::string(embedded(name)) + "\n";
   std::string numbers;
   for (const auto& [name, text] : whole.numbers)

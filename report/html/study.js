@@ -1,5 +1,5 @@
-// What is here: the sections of a study: best design, convergence, map, trade-offs, parallel coordinates, importance,
-// noise against gain, thumbnails, failed candidates. What is not: sweeps (sweep.js), single runs (run.js).
+// What is here: the sections of a study: best design, convergence, importance, noise against gain, thumbnails, failed
+// candidates. What is not: points and lines of many designs (scatter.js), maps (map.js), sweeps (sweep.js), runs (run.js).
 "use strict";
 
 /** Ranks (ties share theirs), for rank correlations. */
@@ -23,47 +23,6 @@ Report.rankCorrelation = (a, b) => {
     yy += (y[k] - mean) ** 2;
   });
   return xx > 0 && yy > 0 ? xy / Math.sqrt(xx * yy) : NaN;
-};
-
-/** Blue (small) over grey to orange (large). */
-Report.ramp = (part) => {
-  const stops = [[0, 90, 181], [120, 150, 190], [180, 180, 176], [225, 150, 80], [200, 80, 0]];
-  const at = Math.max(0, Math.min(1, part)) * (stops.length - 1), low = Math.min(stops.length - 2, Math.floor(at)), f = at - low;
-  return `rgb(${[0, 1, 2].map((c) => Math.round(stops[low][c] + f * (stops[low + 1][c] - stops[low][c]))).join(",")})`;
-};
-
-/** Parallel coordinates of candidates in SVG: an axis a column, a line a candidate, coloured by the last column. */
-Report.parallel = (columns, rows, best) => {
-  const width = 900, height = 320, top = 34, bottom = 26, left = 60, right = 60;
-  const svg = Report.svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Parallel coordinates of the candidates", style: "width:100%;min-width:860px"});
-  const ends = columns.map((column, k) => {
-    const values = rows.map((row) => row.values[k]).filter((value) => value !== null);
-    const low = Math.min(...values), high = Math.max(...values);
-    return [low, high > low ? high : low + 1];
-  });
-  const x = (k) => left + ((width - left - right) * k) / Math.max(1, columns.length - 1);
-  const y = (k, value) => height - bottom - ((height - top - bottom) * (value - ends[k][0])) / (ends[k][1] - ends[k][0]);
-  const last = columns.length - 1;
-  for (const row of rows.slice().sort((a, b) => (a.number === best ? 1 : 0) - (b.number === best ? 1 : 0) || b.values[last] - a.values[last])) {
-    if (row.values.some((value) => value === null)) continue;
-    const path = row.values.map((value, k) => `${k ? "L" : "M"}${x(k).toFixed(1)} ${y(k, value).toFixed(1)}`).join("");
-    const part = (row.values[last] - ends[last][0]) / (ends[last][1] - ends[last][0]);
-    const line = Report.svg("path", {d: path, fill: "none", stroke: row.number === best ? Report.colour("ink") : Report.ramp(part), "stroke-width": row.number === best ? 3.5 : 1.6, opacity: row.number === best ? 1 : 0.8});
-    line.append(Report.svg("title", {}, `${row.arm} ${row.number}: ` + columns.map((column, k) => `${column.label} ${Report.digits(row.values[k] * column.scale)} ${column.unit}`).join(", ")));
-    svg.append(line);
-  }
-  columns.forEach((column, k) => {
-    svg.append(Report.svg("line", {x1: x(k), x2: x(k), y1: top, y2: height - bottom, stroke: Report.colour("soft")}));
-    const text = (content, at) => {
-      const label = Report.svg("text", {x: x(k), y: at, "text-anchor": k === 0 ? "start" : k === last ? "end" : "middle", fill: Report.colour("ink"), "font-size": 13, dx: k === 0 ? -left + 4 : k === last ? right - 4 : 0});
-      label.textContent = content;
-      svg.append(label);
-    };
-    text(column.label.length > 24 ? column.label.slice(0, 22) + "..." : column.label, 13);
-    text(`${Report.digits(ends[k][1] * column.scale)} ${column.unit}`, 29);
-    text(`${Report.digits(ends[k][0] * column.scale)} ${column.unit}`, height - 8);
-  });
-  return svg;
 };
 
 Report.studySections = (work) => {
@@ -115,32 +74,9 @@ Report.studySections = (work) => {
   // Two columns against each other, coloured by a third: the map of the variables, and trade-offs between results.
   const usable = columns.map((column, k) => ({...column, at: k})).filter((column) => done.some((row) => row.values[column.at] !== null) && !["replicates", "failed", "violation"].includes(column.name));
   const variables = usable.filter((column) => column.kind === "variable"), results = usable.filter((column) => column.kind === "result");
-  const axisText = (column) => column.label + (column.unit ? ` (${column.unit})` : "");
-  const wishesOf = (column) => (work.verdict ? work.verdict.wishes : []).filter((wish) => wish.measure === column.name || (wish.measure === "plateau_stress" && column.name === "plateau_mean"));
-  const scatter = (caption, x0, y0, c0, front) => {
-    const chosen = {x: x0, y: y0, c: c0};
-    const select = (what, list) => el("label", {}, {x: "across", y: "upwards", c: "colour"}[what], el("select", {onchange: (event) => {
-      chosen[what] = usable.find((column) => column.name === event.target.value);
-      figure.redraw();
-    }}, list.map((column) => el("option", {value: column.name, selected: column === chosen[what]}, column.label))));
-    const figure = chart(caption, () => {
-      const rows = done.filter((row) => row.values[chosen.x.at] !== null && row.values[chosen.y.at] !== null);
-      const at = (row) => ({x: row.values[chosen.x.at] * chosen.x.scale, y: row.values[chosen.y.at] * chosen.y.scale});
-      const shades = rows.map((row) => row.values[chosen.c.at]), low = Math.min(...shades.filter((value) => value !== null)), high = Math.max(...shades.filter((value) => value !== null));
-      const colours = shades.map((value) => (value === null ? Report.colour("line") : Report.ramp(high > low ? (value - low) / (high - low) : 0.5)));
-      const info = rows.map((row) => `${row.arm} ${row.number}: ${chosen.x.label} ${Report.digits(at(row).x)}, ${chosen.y.label} ${Report.digits(at(row).y)}, ${chosen.c.label} ${Report.digits(row.values[chosen.c.at] === null ? null : row.values[chosen.c.at] * chosen.c.scale)}`);
-      const bands = ["x", "y"].flatMap((what) => wishesOf(chosen[what]).map((wish) => {
-        const band = {low: wish.low === null ? -1e30 : wish.low * chosen[what].scale, high: wish.high === null ? 1e30 : wish.high * chosen[what].scale, colour: Report.colour("wish"), label: "wished"};
-        return {kind: what + "-band", ...band};
-      }));
-      const marks = bands.concat(best && best.values[chosen.x.at] !== null && best.values[chosen.y.at] !== null ? [{kind: "point", ...at(best), colour: Report.colour("ink"), label: "best"}] : []);
-      const series = [{label: "", line: false, dots: 6, points: rows.map(at), colours, info, colour: Report.series(0)}];
-      if (front) series.push(...Report.front(rows, chosen, at));
-      return {x: {label: axisText(chosen.x), grace: "6%"}, y: {label: axisText(chosen.y), grace: "6%"}, series, marks};
-    }, {tools: el("div", {class: "tools"}, select("x", usable), select("y", usable), select("c", usable)), tall: true,
-        note: `colour: ${chosen.c.label}, from blue (small) to orange (large)`});
-    return figure;
-  };
+  const axisText = Report.axisText;
+  const wishes = work.verdict ? work.verdict.wishes : [];
+  const scatter = (caption, x, y, colour, front) => Report.scatter(caption, {x, y, colour}, {columns: usable, rows: done, wishes, best, front});
   if (done.length > 1 && variables.length && scoreAt >= 0) {
     const scoreColumn = usable.find((column) => column.kind === "score") || variables[0];
     const plateau = results.find((column) => column.name === "plateau_mean") || results[0] || scoreColumn;
@@ -186,21 +122,6 @@ Report.studySections = (work) => {
     sections.push(section("The best candidates", el("div", {class: "thumbnails"}, work.thumbnails.map((one) => el("figure", {}, Report.layout(one.layout, `${one.arm} ${one.number}`), el("figcaption", {}, `${one.number ? "No. " + one.number : "Start"} `, el("span", {class: "soft"}, `${one.arm}, score ${one.score}`)))))));
   if (work.failed.length)
     sections.push(section("Candidates that failed", Report.table(["candidate", "reason"], work.failed.map((one) => [one.what, one.reason]))));
-  if (work.rows.length) {
-    const heads = ["no.", "arm", "status", ...columns.map(axisText)];
-    const csv = () => [["number", "arm", "status", ...columns.map((column) => column.name)], ...work.rows.map((row) => [row.number, row.arm, row.status, ...row.values])].map((line) => line.map(Report.csvField).join(",")).join("\n") + "\n";
-    sections.push(section("All candidates", el("p", {}, Report.download("Candidates as CSV", "candidates.csv", csv)), el("details", {open: work.rows.length <= 60},  el("summary", {}, `${work.rows.length} candidates`),
-      Report.sortable(heads, work.rows.map((row) => [row.number, row.arm, row.status, ...columns.map((column, k) => ({value: row.values[k], text: Report.digits(row.values[k] === null ? null : row.values[k] * column.scale)}))])))));
-  }
+  if (work.rows.length) sections.push(Report.allDesigns("All candidates", "candidates.csv", columns, work.rows));
   return sections;
-};
-
-/** Candidates that no other beats in both columns, where the wishes or the names say which side is better. */
-Report.front = (rows, chosen, at) => {
-  const better = (column) => (/peak|undulation|cap|distance|std|score/.test(column.name) ? -1 : /length|smallest|energy|densification|efficiency/.test(column.name) ? 1 : 0);
-  const sx = better(chosen.x), sy = better(chosen.y);
-  if (sx === 0 || sy === 0) return [];
-  const points = rows.map(at);
-  const front = points.filter((p) => !points.some((q) => sx * (q.x - p.x) >= 0 && sy * (q.y - p.y) >= 0 && (q.x !== p.x || q.y !== p.y))).sort((a, b) => a.x - b.x);
-  return front.length > 1 ? [{label: "not beaten in both", points: front, colour: Report.colour("soft"), width: 1.4, dash: [4, 3], order: 4}] : [];
 };

@@ -33,6 +33,8 @@ TEST(ProgressText, PercentRateTimeLeft) {  // 20 % in 60 s: 20 %/min, the other 
             "compress 20.0 %, 20 %/min, 4 min 00 s left | stress 0.21 MPa");
   // resumed at 50 %: 10 % in 60 s, the other 40 % take 240 s
   EXPECT_EQ(progress_text("compress", 0.6, 0.5, 60.0, ""), "compress 60.0 %, 10 %/min, 4 min 00 s left");
+  EXPECT_EQ(progress_text("compress", 0.6, 0.2, 2.0, ""), "compress 60.0 %, 20 %/s, 2 s left")
+      << "by the second where it is fast";
   EXPECT_EQ(progress_text("compress", 0.0, 0.0, 0.0, ""), "compress 0.0 %");
 }
 

@@ -9,12 +9,15 @@
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/journal.h"
 #include "report/html/disc_pressure.h"
 #include "report/html/layout_path.h"
 #include "report/html/packed.h"
 #include "report/html/page.h"
 #include "report/html/run_part.h"
 #include "report/html_report.h"
+#include "results/map_record.h"
+#include "results/measure_table.h"
 #include "results/sampled_curve.h"
 #include "tests/results/synthetic_run.h"
 
@@ -207,6 +210,47 @@ TEST(Report, OfEveryKindOfWork) {
   EXPECT_FALSE(work.at("finals").at("best_scores").empty());
 }
 
+TEST(Report, OfAMapHoldsWhatCanBeReachedAndWhatIsWished) {
+  const auto folder = fresh_folder("report-map");
+  fs::create_directories(folder / "map");
+  const results::Measure* plateau = results::measure_called("plateau_stress");
+  const results::Measure* porosity = results::measure_called("porosity");
+  results::MapRecord record;
+  record.title = "Slots <b>";
+  record.replicates = 2;
+  record.variables = {"layout.diameter"};
+  for (int k = 1; k <= 3; ++k) {
+    results::MapDesign design;
+    design.number = k;
+    design.arm = "rows=2";
+    design.label = "rows=2, diameter " + std::to_string(k) + " mm";
+    design.values = {1e-3 * k};
+    design.completed = k < 3 ? 2 : 0;
+    design.failed = k < 3 ? 0 : 2;
+    design.reason = k < 3 ? "" : "unstable step";
+    if (k < 3)
+      design.results = {{plateau->key, results::statistic_of({}, {1e5 * k, 1e5 * k})},
+                        {porosity->key, results::statistic_of({}, {0.1 * k, 0.1 * k})}};
+    record.designs.push_back(design);
+  }
+  record.wishes = {{plateau, 5e5, 6e5}};
+  io::write_file(folder / "map" / "map.json", results::to_json(record).dump());
+  io::Journal(folder / "map" / "journal.jsonl").append(json{{"event", "map"}}.dump());
+  write_report(folder / "map", folder / "r.html");
+  const std::string page = io::read_file(folder / "r.html");
+  const json facts = facts_of(page), work = facts.at("work");
+  EXPECT_EQ(facts.at("kind"), "map");
+  EXPECT_EQ(facts.at("title"), "Slots <b>");
+  EXPECT_EQ(page.find("Slots <b>"), std::string::npos) << "text of users is escaped";
+  ASSERT_EQ(work.at("rows").size(), 3u);
+  EXPECT_EQ(work.at("rows").at(1).at("values"), json({2e-3, 2e5, 0.2}));
+  EXPECT_EQ(work.at("rows").at(2).at("status"), "failed");
+  EXPECT_EQ(work.at("failed").at(0).at("reason"), "unstable step");
+  EXPECT_EQ(work.at("ranges").at(0), json({"plateau stress", "100 to 200 kPa", 2}));
+  EXPECT_EQ(work.at("wishes").at(0).at("low"), 5e5);
+  ASSERT_EQ(work.at("out_of_reach").size(), 1u);
+}
+
 TEST(Report, HasTheTitleOfTheDesign) {
   const auto folder = fresh_folder("report-title");
   SyntheticRun synthetic = make_run(0.05, 2, 1e-3, 0.6);
@@ -243,7 +287,7 @@ TEST(Report, RefusesWhatIsNoRun) {
     return std::string();
   };
   EXPECT_THAT(message(data / "pack.h5", folder / "r.html"), HasSubstr("perfora plot"));
-  EXPECT_THAT(message(data / "answers", folder / "r.html"), HasSubstr("no study, sweep, ensemble or calibration"));
+  EXPECT_THAT(message(data / "answers", folder / "r.html"), HasSubstr("no study, map, sweep, ensemble or calibration"));
   EXPECT_THAT(message(data / "run.h5", folder / "r.htm"), HasSubstr("report.html"));
   EXPECT_TRUE(fs::is_empty(folder));
 }

@@ -85,6 +85,11 @@ def check_page(driver, page, width, theme):
           return !data.some((value) => value !== 0);
         }).map((one) => one.getAttribute("aria-label"))""")
     expect(not empty, f"{what}: charts without a line: {empty}")
+    # Chart.js takes the ends of an axis from the first and the last point of a series.
+    outside = driver.execute_script("""
+        return Object.values(Chart.instances).filter((chart) => chart.data.datasets.some((one) => one.data.some((point) => point && point.x !== undefined && ["x", "y"].some(
+          (axis) => point[axis] < chart.scales[axis].min || point[axis] > chart.scales[axis].max)))).map((chart) => chart.canvas.getAttribute("aria-label"))""")
+    expect(not outside, f"{what}: charts with points beyond their axes: {outside}")
 
 
 def picture(driver):
