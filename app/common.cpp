@@ -42,6 +42,21 @@ extern "C" void ask_to_stop(int) {
 CLI::Validator seed_range() {
   return CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1).description("");
 }
+}  // namespace
+
+CLI::Validator positive_number(bool zero) {
+  return CLI::Validator(
+      [zero](std::string& text) {
+        double number = 0.0;
+        const bool good =
+            CLI::detail::lexical_cast(text, number) && (zero ? number >= 0.0 : number > 0.0) && std::isfinite(number);
+        return good ? std::string() : fmt::format("\"{}\" is no number {}", text, zero ? "of 0 or more" : "above 0");
+      },
+      "");
+}
+
+namespace {
+
 /// The argument as a shell would need it.
 std::string quoted(const std::string& argument) {
   if (!argument.empty() && argument.find_first_of(" \t\n\"'\\$&|;<>()*?[]{}#~`!") == std::string::npos) return argument;

@@ -62,6 +62,9 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses = Uses::d
 /// Refuses a number of threads or worker processes beyond io::most_threads().
 CLI::Validator no_more_than_help();
 
+/// Refuses what is no number above zero (or zero, where `zero`).
+CLI::Validator positive_number(bool zero = false);
+
 /// --only: cases of a sweep by their labels; `what` follows "Only the cases that have TEXT in their name (repeatable)".
 void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what = "");
 

@@ -58,6 +58,9 @@ std::optional<optimize::DesignFile> design_in(const io::Hdf5Reader& file) {
 }
 
 report::BlockSheet sheet_of_result(const fs::path& path) {
+  if (fs::is_directory(path))
+    throw io::InputError({path.string(), 0, ""}, "is a folder, and one block is drawn", "a design or a result file",
+                         fs::exists(path / "best.toml") ? "give " + (path / "best.toml").string() : "");
   const io::Hdf5Reader file(path);
   if (!file.has("/layout"))
     throw io::InputError({path.string(), 0, "/layout"}, "the file holds no layout of holes",

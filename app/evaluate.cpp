@@ -197,7 +197,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
   command
       ->add_option("--wall-time", flags->wall_time,
                    "Stop with a checkpoint after this many seconds (of each replicate)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SECONDS");
   command
       ->add_option("--dakota", flags->dakota,

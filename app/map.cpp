@@ -76,7 +76,7 @@ void add_map(CLI::App& program, int& exit_code) {
   command->add_option("STUDY", flags->study, "Study file (TOML)")->required();
   command->add_option("-o,--output", flags->output, "Folder for journal and results (default: STUDY's name + -map)")
       ->type_name("DIR");
-  command->add_option("--designs", flags->designs, "How many, instead of map.designs")->check(CLI::PositiveNumber);
+  command->add_option("--designs", flags->designs, "How many, instead of map.designs")->check(positive_number());
   command->add_flag("--resume", flags->resume, "Continue a map that was stopped or killed, or shall have more designs");
   add_worker_flags(*command, flags->workers, "study");
   add_common_flags(*command, flags->common);

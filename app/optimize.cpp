@@ -132,7 +132,7 @@ void add_optimize(CLI::App& program, int& exit_code) {
   command
       ->add_option("--wall-time", flags->wall_time,
                    "End the search early, so that race and verification are done after this many seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SECONDS");
   add_worker_flags(*command, flags->workers, "study");
   command->add_flag("--no-run-file", flags->no_run_file,

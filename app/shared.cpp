@@ -162,7 +162,7 @@ CLI::App* add(CLI::App& program, const char* name, const char* what, SharedFlags
 
 void add_wait(CLI::App& command, SharedFlags& flags) {
   command.add_option("--wait", flags.wait, "How long to wait for something to do (default: 600)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(positive_number(true))
       ->type_name("SECONDS");
 }
 
@@ -185,7 +185,7 @@ void add_shared(CLI::App& program, int& exit_code) {
       ->type_name("JOB.json");
   command->add_flag("--again", of_ask->again, "Also one that was taken before and not answered");
   command->add_option("--wait", of_ask->wait, "How long to wait for a request (default: not at all)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(positive_number(true))
       ->type_name("SECONDS");
   add_common_flags(*command, of_ask->common, Uses::files_only);
   command->callback([of_ask, &exit_code] {

@@ -28,7 +28,7 @@ void add_worker_flags(CLI::App& command, WorkerFlags& flags, const std::string& 
           fmt::format("Replace a worker after this many seconds of one evaluation (default: as the {} says, or 20 "
                       "times the estimate and a minute)",
                       what))
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SECONDS");
   command.add_flag("--shared", flags.shared,
                    "Evaluate nothing here: leave it to `perfora work DIR` on any host that sees the folder");

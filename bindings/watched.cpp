@@ -32,7 +32,8 @@ void Watch::answer(const Progress& progress) {
   const py::gil_scoped_acquire locked;
   try {
     const py::object said = progress_(progress);
-    if (said.is(py::bool_(false))) goes_on_ = false;
+    // False of NumPy, too; a function that returns nothing goes on.
+    if (!said.is_none() && PyObject_IsTrue(said.ptr()) == 0) goes_on_ = false;
   } catch (py::error_already_set& error) {
     of_python_.emplace(error);
     goes_on_ = false;

@@ -306,7 +306,10 @@ PerforationLayout make_layout(const LayoutOptions& options, std::uint64_t seed, 
   if (equal_circles(options) && options.family != LayoutFamily::none)
     layouter.refuse_unless(options.diameter < side, "layout.diameter",
                            "a hole of " + length_text(options.diameter) + " is larger than the cell",
-                           "less than " + length_text(side), "lower the diameter or enlarge the cell");
+                           "less than " + length_text(side),
+                           options.diameter >= 1.0 && options.diameter / 1000.0 < side
+                               ? "plain numbers are in m: did you mean \"" + io::shortest(options.diameter) + " mm\"?"
+                               : "lower the diameter or enlarge the cell");
   PerforationLayout layout{options.width, options.height, {}};
   if (options.family == LayoutFamily::random) {
     RandomPlacement placement = layouter.at_random();

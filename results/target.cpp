@@ -217,11 +217,15 @@ void validate(const Target& target, const MeasureOptions& place, const io::Schem
   const auto& window = target.window;
   refuse_unless(window.empty() || (window.size() == 2 && 0.0 <= window[0] && window[0] < window[1] && window[1] < 1.0),
                 "target.window", "this is not a window of strain",
-                "[start, end] with 0 <= start < end < 1, or \"found\"", "write for example window = [0.2, 0.4]");
+                "[start, end] with 0 <= start < end < 1, or \"found\"",
+                window.size() == 2 && window[1] > 1.0 && window[1] < 100.0
+                    ? fmt::format("did you mean window = [\"{:g} %\", \"{:g} %\"]?", window[0], window[1])
+                    : "write for example window = [0.2, 0.4]");
   const auto& until = target.stress_until;
   refuse_unless(until.empty() || (until.size() == 2 && until[0] > 0.0 && until[0] < 1.0 && until[1] > 0.0),
                 "target.limit.stress_until", "this is not a strain with the largest stress up to it",
-                "[strain, stress], the strain between 0 and 1", "write for example stress_until = [0.5, \"4 MPa\"]");
+                "[strain, stress], the strain between 0 and 1",
+                "write for example stress_until = [\"50 %\", \"4 MPa\"]");
   for (const Measure& measure : measures()) {
     const auto& bounds = target.limits[place_of(measure)];
     const std::string key = std::string("target.limit.") + measure.key;
@@ -270,8 +274,9 @@ std::vector<std::string> warnings(const Target& target) {
   std::vector<std::string> told;
   const auto look = [&](const std::string& key, double stress) {
     if (stress > 0.0 && stress < least_stress)
-      told.push_back(fmt::format("{} is {}: plain numbers are in Pa; write \"1.5 MPa\" for megapascals", key,
-                                 io::quantity(stress, io::Dimension::stress)));
+      told.push_back(fmt::format(
+          "{} is {}, far below what any block carries (plain numbers are in Pa); did you mean \"{:g} MPa\"?", key,
+          io::quantity(stress, io::Dimension::stress), stress));
   };
   look("target.plateau_stress", target.plateau_stress);
   look("target.cap", target.cap);
@@ -280,6 +285,13 @@ std::vector<std::string> warnings(const Target& target) {
     if (wish.measure->dimension == io::Dimension::stress && std::string_view(wish.measure->key) != "plateau_stress" &&
         std::string_view(wish.measure->key) != "stress_until")
       look(std::string("target.limit.") + wish.measure->key, std::isfinite(wish.high) ? wish.high : wish.low);
+  const double lowest = target.plateau_stress * (1.0 - target.tolerance);
+  for (const char* cap : {"stress_until", "first_peak_stress"})
+    for (const Wish& wish : wishes(target))
+      if (wish.measure == measure_called(cap) && lowest > wish.high)
+        told.push_back(fmt::format(
+            "the wished plateau, {} at least, lies above target.limit.{}, {}: no block can keep both",
+            io::quantity(lowest, io::Dimension::stress), cap, io::quantity(wish.high, io::Dimension::stress)));
   if (target.has_curve())
     look("target.curve", *std::max_element(target.curve_points.begin(), target.curve_points.end()));
   return told;

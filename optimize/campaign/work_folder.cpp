@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/litter.h"
+#include "io/progress.h"
 #include "results/campaign_folder.h"
 
 namespace perfora::optimize {
@@ -62,6 +63,8 @@ io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::
     refuse(folder, fmt::format("this folder holds {}, not {}", with_article(there), with_article(what)),
            "name another folder with -o");
   const bool begun = fs::exists(journal);
+  if (resume && !begun)
+    io::log_warning(fmt::format("{} holds no {} to resume: a new one begins", folder.string(), what));
   if (begun && !resume && !force)
     refuse(folder, fmt::format("this folder holds {} already", with_article(what)),
            "continue it with --resume, start over with --force, or name another folder with -o");

@@ -27,6 +27,17 @@ void describe_seeds(io::Schema& schema, Seeds& seeds) {
       .integer("search", seeds.search, range, "seed of the search; 0: from `seed`");
 }
 
+/// A mortar is known by what is measured on it, and [material] holds what discs need: the way from one to the other.
+void refuse_measured_strengths(const std::vector<io::Entry>& entries, const std::string& file) {
+  for (const io::Entry& entry : entries)
+    for (const char* measured : {"young_modulus", "poisson_ratio", "tensile_strength", "compressive_strength"})
+      if (entry.key == std::string("material.") + measured)
+        throw io::InputError(
+            {file, entry.value.line, entry.key}, "unknown key in [material]: it is measured on specimens", "",
+            "`perfora calibrate` finds the keys that give it, and from = \"calibrated.toml\" takes them "
+            "(docs/user/tutorial-mortar.md)");
+}
+
 /// A material is taken over first, wherever the line stands, so that what the design says itself comes after it.
 std::vector<io::Entry> material_first(std::vector<io::Entry> entries) {
   std::stable_partition(entries.begin(), entries.end(),
@@ -70,6 +81,7 @@ DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std:
   path_ = path;
   const std::vector<io::Entry> entries = io::read_toml(path);
   results::require_kind(entries, path, "design");
+  refuse_measured_strengths(entries, path.string());
   io::apply_entries(*schema_, material_first(entries), path.string());
   title_ = io::title_in(entries);
   if (title_.empty()) title_ = path.stem().string();

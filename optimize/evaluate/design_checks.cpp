@@ -161,7 +161,8 @@ void check_crushed_ends(const Design& design, const io::Schema& schema) {
 std::string pair_text(const geometry::ThinnestWall& wall, const geometry::PerforationLayout& layout) {
   const auto middle = [](double from, double to, double period) {
     const double at = 0.5 * (from + to);
-    return warned_length(at - period * std::floor(at / period));
+    const double inside = at - period * std::floor(at / period);
+    return warned_length(inside < wall_rounding * period ? 0.0 : inside);
   };
   const std::string at = fmt::format("at ({}, {})", middle(wall.from.x, wall.to.x, layout.width),
                                      middle(wall.from.y, wall.to.y, layout.height));
@@ -271,14 +272,24 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
   }
 }
 
+/// Plain numbers are in metres, and people think in millimetres.
+void warn_about_metres(const Design& design, std::vector<std::string>& warnings) {
+  constexpr double implausible = 2.0;  // m
+  for (const auto& [key, side] :
+       {std::pair{"cell.width", design.layout.width}, std::pair{"cell.height", design.layout.height}})
+    if (side >= implausible)
+      warnings.push_back(
+          fmt::format("{} is {}: plain numbers are in m; did you mean \"{:g} mm\"?", key, length_text(side), side));
+}
+
 void warn_about_window(const Design& design, std::vector<std::string>& warnings) {
   const double until = design.solver.loading.until;
   const results::MeasureOptions measures = results::with_window_of(design.target, design.measures);
   if (measures.plateau == results::PlateauPlace::found || until >= measures.plateau_end) return;
-  warnings.push_back(
-      fmt::format("the run ends at strain {:.4g}, before the end of the plateau window at {:.4g}: plateau_stress "
-                  "and what follows from it will be null",
-                  until, measures.plateau_end));
+  warnings.push_back(fmt::format(
+      "the run ends at {} strain, before the end of the plateau window at {}: there will be no plateau stress, "
+      "nor what follows from it; raise loading.until, or set measures.plateau_start and measures.plateau_end",
+      io::quantity(until, io::Dimension::ratio), io::quantity(measures.plateau_end, io::Dimension::ratio)));
 }
 
 std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose) {
@@ -295,6 +306,7 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   check_walls(layout, design, schema, horizon_radius, warnings);
   solver::validate(design.solver, schema);
   results::validate(design.measures, schema);
+  warn_about_metres(design, warnings);
   results::validate(design.target, design.measures, schema);
   for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);

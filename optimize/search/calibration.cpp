@@ -2,10 +2,13 @@
 // (calibration_search.cpp).
 #include "optimize/search/calibration.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "io/error.h"
+#include "io/text.h"
 #include "optimize/campaign/table_file.h"
 #include "optimize/evaluate/evaluation.h"
 
@@ -71,6 +74,13 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
     throw io::InputError(schema.origin("calibrate.compressive_strength"),
                          "the compressive strength is not above the tensile one", "more than tensile_strength",
                          "check both; bonds that break more easily in compression are not in this model");
+  for (const auto& [name, stress] :
+       {std::pair{"young_modulus", keys.young_modulus}, std::pair{"tensile_strength", keys.tensile_strength},
+        std::pair{"compressive_strength", keys.compressive_strength}})
+    if (stress > 0.0 && stress < 1e4)
+      calibration.warnings.push_back(fmt::format(
+          "calibrate.{} is {} (plain numbers are in Pa); did you mean \"{:g} {}Pa\"?", name,
+          io::quantity(stress, io::Dimension::stress), stress, std::string_view(name) == "young_modulus" ? "G" : "M"));
   solver::MaterialOptions& material = start->design().solver.material;
   if (material.grade != 1.0 || material.strength != 1.0)
     calibration.warnings.push_back(

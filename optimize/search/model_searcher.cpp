@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -30,8 +31,13 @@ constexpr int most_replayed = 5000;
 constexpr double no_use = 900.0;
 /// A search ends when twice running no more than this share of the standard error of the leader's score is expected.
 constexpr double little_gain = 0.1;
-/// Improvements below this (of a score) are told apart by the expected score.
+/// Improvements below this (of a score) are told apart by the lower bound of the score: the expected one less its
+/// error. By the expected score alone a batch would be copies of the best design.
 constexpr double least_improvement = 1e-6;
+/// Designs of an arm lie at least so far apart (root mean square over the variables, in units of their bounds), or a
+/// quarter of the mean distance of as many points where those lie closer: nearer ones are nearly the same discs with
+/// the same seeds, and tell nothing.
+constexpr double closest = 0.01, closest_of_mean = 0.25;
 
 struct Place {
   std::size_t task = 0;
@@ -217,14 +223,34 @@ class ModelSearch {
   /// What is known while points of a batch are chosen.
   struct Pick {
     Known taken;                        ///< points that are no use any more
+    std::map<int, Points> places;       ///< the same, by arm
     double best = largest_score;        ///< lowest expected score
     const Candidate* leader = nullptr;  ///< the evaluated design that it is expected of
   };
 
-  static Pick begun(StudyModel& model, const Known& known) {
-    Pick pick{known};
+  void take_up(Pick& pick, const Candidate& candidate) const {
+    if (pick.taken.insert(&candidate).second)
+      pick.places[candidate.arm].push_back(store_.study().point_of(candidate.values));
+  }
+
+  /// Whether a point lies too close to one that is taken.
+  bool crowds(const Pick& pick, int arm, std::span<const double> x) const {
+    const auto found = pick.places.find(arm);
+    if (found == pick.places.end() || x.empty()) return false;
+    const auto variables = static_cast<double>(x.size()), count = static_cast<double>(found->second.size() + 1);
+    const double least = std::min(closest, closest_of_mean * std::pow(count, -1.0 / variables));
+    return std::any_of(found->second.begin(), found->second.end(), [&](const std::vector<double>& other) {
+      double squares = 0.0;
+      for (std::size_t k = 0; k < x.size(); ++k) squares += (x[k] - other[k]) * (x[k] - other[k]);
+      return squares < least * least * variables;
+    });
+  }
+
+  Pick begun(StudyModel& model, const Known& known) const {
+    Pick pick;
+    for (const Candidate* one : known) take_up(pick, *one);
     const std::vector<StudyModel::Ranked> ranked = model.ranked();
-    for (const StudyModel::Ranked& one : ranked) pick.taken.insert(one.candidate);
+    for (const StudyModel::Ranked& one : ranked) take_up(pick, *one.candidate);
     if (ranked.empty()) return pick;
     pick.best = ranked.front().answer.score;
     pick.leader = ranked.front().candidate;
@@ -238,7 +264,7 @@ class ModelSearch {
       std::optional<Place> place = best_place(model, pick);
       if (!place) break;
       const Candidate& candidate = at(*place);
-      pick.taken.insert(&candidate);
+      take_up(pick, candidate);
       model.expect(candidate);
       pick.best = std::min(pick.best, model.at(candidate).score);
       batch.push_back(std::move(*place));
@@ -255,7 +281,7 @@ class ModelSearch {
       Place place{task, on_grid({x.begin(), x.end()})};
       const Candidate& candidate = at(place);
       if (candidate.violation > 0.0) return violation_score(candidate.violation);
-      if (pick.taken.contains(&candidate)) return no_use;
+      if (pick.taken.contains(&candidate) || crowds(pick, candidate.arm, place.point)) return no_use;
       const auto [known, fresh] = seen.emplace(&candidate, 0.0);
       if (fresh) known->second = cost_of(model.against(candidate, pick.best));
       if (known->second < least) {
@@ -281,10 +307,11 @@ class ModelSearch {
     return found;
   }
 
-  /// For a minimiser: minus the logarithm of the expected improvement; where that is tiny, the expected score.
+  /// For a minimiser: minus the logarithm of the expected improvement; where that is tiny, the lower bound of the
+  /// score.
   static double cost_of(const model::Answer& answer) {
     const double improvement = answer.improvement + least_improvement;
-    return -std::log(improvement) + least_improvement / improvement * answer.score;
+    return -std::log(improvement) + least_improvement / improvement * (answer.score - answer.score_error);
   }
 
   const SearchStage& stage_;

@@ -1,11 +1,15 @@
 // What is here: R.h5 and P.h5 turned into moments. What is not: formats.
 #include "report/export/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "io/hdf5.h"
+#include "io/progress.h"
+#include "io/text.h"
 #include "io/toml.h"
 #include "results/formats.h"
 #include "results/pack_file.h"
@@ -87,7 +91,19 @@ void Scene::choose(const std::vector<results::FrameInfo>& frames) {
   const auto off = [this](const Chosen& one) { return std::abs(one.info.strain - *options_.at); };
   const auto nearest = std::min_element(chosen_.begin(), chosen_.end(),
                                         [&](const Chosen& a, const Chosen& b) { return off(a) < off(b); });
+  // Frames stand a few per cent apart; a strain beyond the run is a slip, such as 10 for 10 %.
+  constexpr double beyond = 0.01;
+  const double last = chosen_.back().info.strain;
+  if (*options_.at > last + beyond)
+    throw io::InputError(
+        {"--at", 0, ""},
+        fmt::format("the run ends at {} strain, and {} is asked", io::quantity(last, io::Dimension::ratio),
+                    io::quantity(*options_.at, io::Dimension::ratio)),
+        "a strain that the run reached", *options_.at >= 1.0 ? "write \"10 %\" for per cent" : "");
   chosen_ = {*nearest};
+  io::log_info(fmt::format("the frame at {} strain, the nearest to {}",
+                           io::quantity(chosen_.front().info.strain, io::Dimension::ratio),
+                           io::quantity(*options_.at, io::Dimension::ratio)));
 }
 
 double Scene::axis_value(std::size_t k) const {

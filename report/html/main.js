@@ -13,7 +13,7 @@ Report.verdict = (verdict, status, reason) => {
     el("strong", {class: "outcome"}, verdict.outcome ? verdict.outcome[0].toUpperCase() + verdict.outcome.slice(1) : "Verdict"),
     verdict.wishes.length ? null : el("p", {}, text),
     verdict.wishes.length ? el("ul", {}, verdict.wishes.map((wish) => el("li", {}, el("span", {class: "mark " + Report.markClass(wish.outcome)}, wish.outcome), el("span", {}, wish.text)))) : null,
-    verdict.note ? el("p", {class: "soft"}, verdict.note) : null);
+    verdict.note ? el("p", {class: "note"}, verdict.note) : null);
 };
 
 /** In the place of a verdict: a map has none, but says what it does not come near. */

@@ -135,6 +135,24 @@ TEST_F(ModelSearcherTest, ModelFindsTheOptimum) {
   EXPECT_NEAR(recommended.values[0], best_diameter, 0.0006);
 }
 
+// The best design lies in the corner of the bounds, so that soon no improvement is expected anywhere.
+TEST_F(ModelSearcherTest, AsksForNoCopiesOfTheBestDesign) {
+  std::string text = study_text("final_replicates = 0\nmaxeval = 24\nalgorithm = \"model\"");
+  text.replace(text.find("14 mm"), 5, "18 mm");
+  const Study one = read_study(folder.file("study.toml", text));
+  CandidateBook book(one);
+  Answers known;
+  const std::vector<Trace> traces = carried_out(one, book, known, stage_of(one));
+  std::vector<std::vector<double>> points;
+  for (const Visit& visit : traces[0].visits) points.push_back(one.point_of(visit.candidate->values));
+  ASSERT_GE(points.size(), 16U);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      EXPECT_GE(std::hypot(points[k][0] - points[j][0], points[k][1] - points[j][1]), 0.01 * std::sqrt(2.0) - 1e-9)
+          << j << " and " << k << " at " << points[k][0] << ", " << points[k][1];
+  EXPECT_LT(best_of(traces), 0.02);
+}
+
 // Batches of four over both arms; those that are given are taken, and computed anew they are the same.
 TEST_F(ModelSearcherTest, BatchesAreGivenBackOrComputedAnew) {
   const Study one = study("model", 14, "rows = [2, 3]");
