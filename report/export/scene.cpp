@@ -91,8 +91,8 @@ void Scene::choose(const std::vector<results::FrameInfo>& frames) {
   const auto off = [this](const Chosen& one) { return std::abs(one.info.strain - *options_.at); };
   const auto nearest = std::min_element(chosen_.begin(), chosen_.end(),
                                         [&](const Chosen& a, const Chosen& b) { return off(a) < off(b); });
-  // Frames stand a few per cent apart; a strain beyond the run is a slip, such as 10 for 10 %.
-  constexpr double beyond = 0.01;
+  // A run keeps a frame for every 5 % of strain; further beyond the last one it is a slip, such as 10 for 10 %.
+  constexpr double beyond = 0.05;
   const double last = chosen_.back().info.strain;
   if (*options_.at > last + beyond)
     throw io::InputError(

@@ -118,6 +118,14 @@ TEST_F(Exports, AxisOfStrainAndOneFrame) {
   const std::string one = text_of("xyz", options);
   EXPECT_EQ(count(one, "Lattice="), 1u);
   EXPECT_THAT(one, HasSubstr("strain=0.1 "));
+  options.at = 10.0;
+  try {
+    static_cast<void>(text_of("xyz", options));
+    FAIL() << "a strain that the run never had";
+  } catch (const io::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the run ends at 10 % strain"));
+    EXPECT_THAT(error.what(), HasSubstr("per cent"));
+  }
 }
 
 // A bond of stiffness k_n has K = k_n/2 in LAMMPS; grade 2 doubles k_n.

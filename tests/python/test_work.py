@@ -215,6 +215,13 @@ class PackTest(FolderTest):
         if packing.status == "stopped":
             self.assertEqual(len(packing.discs), 0)
 
+    def test_false_of_numpy_stops_a_run_and_none_does_not(self):
+        design = perfora.Design(small)
+        stopped = perfora.evaluate(design, progress=lambda now: np.bool_(now.strain <= 0.002))
+        self.assertEqual(stopped.status, "stopped")
+        self.assertLess(stopped["final_strain"], design["loading.until"])
+        self.assertEqual(perfora.evaluate(design, progress=lambda now: None).status, "completed")
+
 
 if __name__ == "__main__":
     unittest.main()

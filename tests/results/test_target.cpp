@@ -122,7 +122,19 @@ TEST(Target, WarnsOfAPascalThatWasMeantAsMegapascal) {
   const std::vector<std::string> told = warnings(read.target);
   ASSERT_EQ(told.size(), 2u);
   EXPECT_NE(told[0].find("target.plateau_stress is 1.5 Pa"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("did you mean \"1.5 MPa\"?"), std::string::npos) << told[0];
+  EXPECT_NE(told[1].find("did you mean \"3 MPa\"?"), std::string::npos) << told[1];
   EXPECT_TRUE(warnings(Read("[target]\nplateau_stress = \"1.5 MPa\"\n").target).empty());
+}
+
+TEST(Target, WarnsOfAPlateauAboveItsCap) {
+  // 100 MPa within 20 % is 80 MPa at least.
+  const std::vector<std::string> told =
+      warnings(Read("[target]\nplateau_stress = \"100 MPa\"\nlimit.stress_until = [0.5, \"79 MPa\"]\n").target);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("no block can keep both"), std::string::npos) << told[0];
+  EXPECT_TRUE(warnings(Read("[target]\nplateau_stress = \"100 MPa\"\nlimit.stress_until = [0.5, \"81 MPa\"]\n").target)
+                  .empty());
 }
 
 }  // namespace

@@ -111,8 +111,20 @@ TEST(DesignChecks, CoarseDiscsAreWarnedAboutWithTheirPrice) {
 }
 
 TEST(DesignChecks, AWindowBeyondTheEndIsWarnedAbout) {
-  EXPECT_THAT(warnings_of("[loading]\nuntil = 0.3\n"), HasSubstr("plateau_stress"));
+  const std::string told = warnings_of("[loading]\nuntil = 0.3\n");
+  EXPECT_THAT(told, HasSubstr("ends at 30 % strain, before the end of the plateau window at 40 %"));
+  EXPECT_THAT(told, HasSubstr("set measures.plateau_start and measures.plateau_end"));
   EXPECT_EQ(warnings_of("[loading]\nuntil = 0.4\n"), "");
+}
+
+TEST(DesignChecks, MetresThatWereMeantAsMillimetresAreAskedAbout) {
+  DesignFile design;
+  design.schema().set_number("cell.width", 20.0, {});
+  design.schema().set_number("cell.height", 0.02, {});
+  const std::vector<std::string> told = design.validate();
+  EXPECT_THAT(told,
+              ::testing::Contains(HasSubstr("cell.width is 20 m: plain numbers are in m; did you mean \"20 mm\"?")));
+  EXPECT_THAT(told, ::testing::Not(::testing::Contains(HasSubstr("cell.height is"))));
 }
 
 TEST(DesignChecks, AKeyLeftOutIsStillTheFilesFault) {
