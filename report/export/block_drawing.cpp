@@ -44,7 +44,15 @@ class Sheet {
       : sheet_(sheet),
         width_(sheet_mm * sheet.layout.width),
         height_(sheet_mm * sheet.layout.height),
-        list_(sheet.layout) {}
+        list_(sheet.layout) {
+    // Dimensions of small blocks would lie across each other: their texts fit between the ends, down to 1 mm.
+    constexpr double least = 0.4;
+    double fits = 1.0;
+    for (const std::vector<Chain>& chains : {list_.chain_x(), list_.chain_y()})
+      for (const Chain& chain : chains)
+        fits = std::min(fits, sheet_mm * (chain.to - chain.from) / text_width(chain.words, small));
+    beside_holes_ = small * std::max(least, fits);
+  }
 
   Drawing made() {
     choose_sheet();
@@ -156,9 +164,10 @@ class Sheet {
       const double extent = sheet_mm * hole.smallest_extent(), arm = std::min(2.0, 0.3 * extent);
       line(Layer::centres, {centre.x - arm, centre.y}, {centre.x + arm, centre.y});
       line(Layer::centres, {centre.x, centre.y - arm}, {centre.x, centre.y + arm});
-      constexpr double least_for_number = 6.0;
+      const double least_for_number = 2.4 * beside_holes_;
       if (extent < least_for_number) continue;
-      text(Layer::text, {centre.x + 0.7, centre.y - 0.7 - small}, small, Align::left, std::to_string(k + 1));
+      text(Layer::text, {centre.x + 0.7, centre.y - 0.7 - beside_holes_}, beside_holes_, Align::left,
+           std::to_string(k + 1));
       if (list_.few_sizes() && list_.first_of_its_size(k)) draw_size(hole, list_.size_text(k));
     }
   }
@@ -166,8 +175,8 @@ class Sheet {
   /// The size across the hole, above its number.
   void draw_size(const geometry::Perforation& hole, const std::string& words) {
     const Point centre = on_sheet({hole.x, hole.y});
-    if (text_width(words, small) > sheet_mm * 0.8 * hole.smallest_extent()) return;
-    text(Layer::dimensions, {centre.x, centre.y + 2.6}, small, Align::middle, words);
+    if (text_width(words, beside_holes_) > sheet_mm * 0.8 * hole.smallest_extent()) return;
+    text(Layer::dimensions, {centre.x, centre.y + 2.6}, beside_holes_, Align::middle, words);
   }
 
   /// A dimension between two places along x (or y), its line `offset` mm from the edge, outwards.
@@ -182,11 +191,11 @@ class Sheet {
     head(Layer::dimensions, outside ? place(from - tail, offset) : place(to, offset), place(from, offset));
     head(Layer::dimensions, outside ? place(to + tail, offset) : place(from, offset), place(to, offset));
     // Above the line as it is read, which along y is farther out; below it where the next text would be too near.
-    const bool narrow = text_width(words, small) > to - from;
-    const double near = 0.8, beyond = 0.8 + small;
+    const bool narrow = text_width(words, beside_holes_) > to - from;
+    const double near = 0.8, beyond = 0.8 + beside_holes_;
     const double away =
         along_x ? (narrow ? offset + beyond : offset - near) : (narrow ? offset - beyond : offset + near);
-    text(Layer::dimensions, place(0.5 * (from + to), away), small, Align::middle, words, along_x ? 0.0 : 90.0);
+    text(Layer::dimensions, place(0.5 * (from + to), away), beside_holes_, Align::middle, words, along_x ? 0.0 : 90.0);
   }
 
   void draw_pitches() {
@@ -212,8 +221,9 @@ class Sheet {
     line(Layer::dimensions, before, behind);
     head(Layer::dimensions, before, from);
     head(Layer::dimensions, behind, to);
-    text(Layer::dimensions, {0.5 * (from.x + to.x) - 1.2 * uy, 0.5 * (from.y + to.y) + 1.2 * std::abs(ux)}, small,
-         std::abs(ux) > std::abs(uy) ? Align::middle : Align::right, "t " + mm_text(sheet_mm * wall.thickness, 3));
+    text(Layer::dimensions, {0.5 * (from.x + to.x) - 1.2 * uy, 0.5 * (from.y + to.y) + 1.2 * std::abs(ux)},
+         beside_holes_, std::abs(ux) > std::abs(uy) ? Align::middle : Align::right,
+         "t " + mm_text(sheet_mm * wall.thickness, 3));
     wall_note_ =
         fmt::format("t = {} mm, {}", mm_text(sheet_mm * wall.thickness, 3),
                     wall.first == wall.second ? fmt::format("hole {} and its next image", wall.first + 1)
@@ -237,6 +247,8 @@ class Sheet {
     rows.insert(rows.begin(),
                 {"block", fmt::format("{} x {} mm, holes through it", mm_text(width_, 3), mm_text(height_, 3))});
     rows.insert(rows.begin() + 1, {"holes", list_.summary()});
+    if (sheet_.layout.cut_out(true, true).size() > sheet_.layout.perforations.size())
+      rows.insert(rows.begin() + 2, {"at the edges", "a hole across an edge goes on at the opposite one"});
     if (!wall_note_.empty()) rows.insert(rows.begin() + 2, {"thinnest wall", wall_note_});
     rows.emplace_back("scale", "1:1, " + size_name_ + ", dimensions in mm");
     rows.emplace_back("from", sheet_.source);
@@ -280,7 +292,8 @@ class Sheet {
 
   const BlockSheet& sheet_;
   Drawing drawing_;
-  double width_, height_;  ///< of the block, mm
+  double width_, height_;        ///< of the block, mm
+  double beside_holes_ = small;  ///< height of the texts in and around the block, mm
   double right_ = 0.0;
   HoleList list_;
   std::string size_name_, wall_note_;
