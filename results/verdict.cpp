@@ -123,10 +123,18 @@ std::string seeds_text(const Verdict& verdict) {
                      verdict.replicates == 1 ? "" : "s");
 }
 
+/// Whether inertia holds up more of the plateau than a claim allows.
+bool lifted_by_rate(const Verdict& verdict) {
+  return std::isfinite(verdict.impact_ratio) && verdict.impact_ratio > honest_impact_ratio;
+}
+
 std::string head_of(const Verdict& verdict) {
   switch (verdict.outcome) {
     case Outcome::met:
-      return fmt::format("met: {}, for {} with 95 % confidence ({})",
+      return fmt::format("met{}: {}, for {} with 95 % confidence ({})",
+                         lifted_by_rate(verdict) ? fmt::format(" at this rate (impact stress is {} of the plateau)",
+                                                               io::quantity(verdict.impact_ratio, io::Dimension::ratio))
+                                                 : "",
                          verdict.wishes.size() == 1 ? "the wish" : fmt::format("all {} wishes", verdict.wishes.size()),
                          subject_text(verdict), seeds_text(verdict));
     case Outcome::missed:
@@ -161,7 +169,7 @@ std::string note_of(const Verdict& verdict) {
   std::string text = "the model is plane and without creep";
   if (!std::isfinite(verdict.impact_ratio)) return text;
   const std::string ratio = io::quantity(verdict.impact_ratio, io::Dimension::ratio);
-  return verdict.impact_ratio > honest_impact_ratio
+  return lifted_by_rate(verdict)
              ? fmt::format("loaded fast: impact stress is {} of the plateau (10 % for claims), which lifts it; {}",
                            ratio, text)
              : fmt::format("impact stress is {} of the plateau; {}", ratio, text);

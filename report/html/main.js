@@ -8,9 +8,10 @@ Report.verdict = (verdict, status, reason) => {
   if (!verdict || !verdict.text)
     return el("div", {class: "verdict"}, el("strong", {class: "outcome"}, "No wish was stated"),
       el("p", {}, `Write a [target] into the design or study, and this place says whether it is met. ${status ? `The work: ${status}${reason ? ", " + reason : ""}.` : ""}`));
+  const head = verdict.outcome === "met" ? verdict.text.split(":")[0] : verdict.outcome;  // "met at this rate (...)"
   const text = verdict.text.startsWith(verdict.outcome) ? verdict.text.slice(verdict.outcome.length).replace(/^[\s:,]+/, "") : verdict.text;
   return el("div", {class: "verdict " + Report.markClass(verdict.outcome)},
-    el("strong", {class: "outcome"}, verdict.outcome ? verdict.outcome[0].toUpperCase() + verdict.outcome.slice(1) : "Verdict"),
+    el("strong", {class: "outcome"}, head ? head[0].toUpperCase() + head.slice(1) : "Verdict"),
     verdict.wishes.length ? null : el("p", {}, text),
     verdict.wishes.length ? el("ul", {}, verdict.wishes.map((wish) => el("li", {}, el("span", {class: "mark " + Report.markClass(wish.outcome)}, wish.outcome), el("span", {}, wish.text)))) : null,
     verdict.note ? el("p", {class: "note"}, verdict.note) : null);

@@ -214,6 +214,9 @@ TEST(Verdict, SaysWhatTheRateLifts) {
   std::vector<Evaluation> fast = steady;
   for (Evaluation& one : fast) one.summary.impact_ratio = 0.2;
   EXPECT_TRUE(verdict(wish(1e5), fast).note.starts_with("loaded fast"));
+  EXPECT_TRUE(
+      verdict(wish(1e5), fast).text.starts_with("met at this rate (impact stress is 20 % of the plateau): the wish"))
+      << verdict(wish(1e5), fast).text;
   const nlohmann::json record = to_json(verdict(wish(1e5), fast));
   EXPECT_EQ(record.at("outcome"), "met");
   EXPECT_EQ(record.at("wishes").size(), 1u);
