@@ -123,7 +123,7 @@ TEST_F(Exports, AxisOfStrainAndOneFrame) {
     static_cast<void>(text_of("xyz", options));
     FAIL() << "a strain that the run never had";
   } catch (const io::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the run ends at 10 % strain"));
+    EXPECT_THAT(error.what(), HasSubstr("the run ends at 30 % strain"));
     EXPECT_THAT(error.what(), HasSubstr("per cent"));
   }
 }
