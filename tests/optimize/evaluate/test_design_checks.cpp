@@ -119,11 +119,11 @@ TEST(DesignChecks, AWindowBeyondTheEndIsWarnedAbout) {
 
 TEST(DesignChecks, MetresThatWereMeantAsMillimetresAreAskedAbout) {
   DesignFile design;
-  design.schema().set_number("cell.width", 20.0, {});
-  design.schema().set_number("cell.height", 0.02, {});
+  design.schema().set_number("cell.width", 3.0, {});
+  design.schema().set_number("cell.height", 0.05, {});
   const std::vector<std::string> told = design.validate();
   EXPECT_THAT(told,
-              ::testing::Contains(HasSubstr("cell.width is 20 m: plain numbers are in m; did you mean \"20 mm\"?")));
+              ::testing::Contains(HasSubstr("cell.width is 3 m: plain numbers are in m; did you mean \"3 mm\"?")));
   EXPECT_THAT(told, ::testing::Not(::testing::Contains(HasSubstr("cell.height is"))));
 }
 
