@@ -121,6 +121,7 @@ TEST(DesignChecks, MetresThatWereMeantAsMillimetresAreAskedAbout) {
   DesignFile design;
   design.schema().set_number("cell.width", 3.0, {});
   design.schema().set_number("cell.height", 0.05, {});
+  design.schema().set_number("layout.diameter", 0.004, {});
   const std::vector<std::string> told = design.validate();
   EXPECT_THAT(told,
               ::testing::Contains(HasSubstr("cell.width is 3 m: plain numbers are in m; did you mean \"3 mm\"?")));
