@@ -68,4 +68,29 @@ class CommandLine : public ::testing::Test {
   fs::path folder_;
 };
 
+/// The same with a small study "s.toml" of that design, scripts that start several processes, and what a study found.
+class StudyCommands : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    std::ofstream(folder_ / "s.toml") << "[study]\ndesign = \"d.toml\"\nmaxeval = 4\nreplicates = 2\n"
+                                         "final_replicates = 3\n[target]\nplateau_stress = \"0.4 MPa\"\n"
+                                         "[variables]\n\"layout.diameter\" = [\"4 mm\", \"7 mm\"]\n"
+                                         "[arms]\nfamily = [\"square\", \"staggered\"]\nrows = [2]\n";
+  }
+  /// Runs a script of sh in the folder, in which $PERFORA is the program; its exit code.
+  int shell(const std::string& script) const {
+    std::ofstream(folder_ / "script.sh") << "cd '" << folder_.string() << "'\nexport PERFORA='" PERFORA_PROGRAM "'\n"
+                                         << script << "\n";
+    const int status = std::system(("sh '" + (folder_ / "script.sh").string() + "'").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// result.json of a study's folder, without times.
+  json result(const std::string& folder) const {
+    json record = json::parse(read_text(folder_ / folder / "result.json"));
+    record.erase("performance");
+    return record;
+  }
+};
+
 }  // namespace perfora::test

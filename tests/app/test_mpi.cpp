@@ -13,42 +13,28 @@ constexpr const char* script_head =
     "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1\n"
     "export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl=self,vader,tcp "
     "OMPI_MCA_btl_vader_single_copy_mechanism=none\n"
-    "export PERFORA='" PERFORA_PROGRAM "' PERFORA_MPI='" PERFORA_MPI_PROGRAM "'\n";
+    "export PERFORA_MPI='" PERFORA_MPI_PROGRAM "'\n";
 
-class Mpi : public CommandLine {
+class Mpi : public StudyCommands {
  protected:
   void SetUp() override {
     if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "mpirun is missing";
-    CommandLine::SetUp();
-    write_study(4);
+    StudyCommands::SetUp();
+    run_by_child_processes();
+  }
+  /// What is to come out, in the folder "one".
+  void run_by_child_processes() {
+    fs::remove_all(folder_ / "one");
+    ASSERT_EQ(run("optimize s.toml -o one --no-run-file --workers 2 --quiet").exit_code, 0);
   }
   /// The same study with evaluations of a second: long enough to be disturbed.
   void slow_down() {
     std::string design = read_text(folder_ / "d.toml");
     design.replace(design.find("until = 0.01"), 12, "until = 0.2");
     std::ofstream(folder_ / "d.toml") << design;
-    write_study(4);
+    run_by_child_processes();
   }
-  /// A study and its result by child processes, in the folder "one".
-  void write_study(int maxeval) {
-    fs::remove_all(folder_ / "one");
-    std::ofstream(folder_ / "s.toml") << "[study]\ndesign = \"d.toml\"\nmaxeval = " << maxeval
-                                      << "\nreplicates = 2\n"
-                                         "final_replicates = 3\n[target]\nplateau_stress = \"0.4 MPa\"\n"
-                                         "[variables]\n\"layout.diameter\" = [\"4 mm\", \"7 mm\"]\n"
-                                         "[arms]\nfamily = [\"square\", \"staggered\"]\nrows = [2]\n";
-    ASSERT_EQ(run("optimize s.toml -o one --no-run-file --workers 2 --quiet").exit_code, 0);
-  }
-  int shell(const std::string& script) const {
-    std::ofstream(folder_ / "script.sh") << "cd '" << folder_.string() << "'\n" << script_head << script << "\n";
-    const int status = std::system(("sh '" + (folder_ / "script.sh").string() + "'").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  json result(const std::string& folder) const {
-    json record = json::parse(read_text(folder_ / folder / "result.json"));
-    record.erase("performance");
-    return record;
-  }
+  int shell(const std::string& script) const { return StudyCommands::shell(script_head + script); }
   bool has_finished(const std::string& folder) const {
     return read_text(folder_ / folder / "journal.jsonl").find("\"event\":\"finished\"") != std::string::npos;
   }

@@ -6,27 +6,7 @@
 namespace perfora::test {
 namespace {
 
-class SharedCommands : public CommandLine {
- protected:
-  void SetUp() override {
-    CommandLine::SetUp();
-    std::ofstream(folder_ / "s.toml") << "[study]\ndesign = \"d.toml\"\nmaxeval = 4\nreplicates = 2\n"
-                                         "final_replicates = 3\n[target]\nplateau_stress = \"0.4 MPa\"\n"
-                                         "[variables]\n\"layout.diameter\" = [\"4 mm\", \"7 mm\"]\n"
-                                         "[arms]\nfamily = [\"square\", \"staggered\"]\nrows = [2]\n";
-  }
-  int shell(const std::string& script) const {
-    std::ofstream(folder_ / "script.sh") << "cd '" << folder_.string() << "'\nexport PERFORA='" PERFORA_PROGRAM "'\n"
-                                         << script << "\n";
-    const int status = std::system(("sh '" + (folder_ / "script.sh").string() + "'").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  json result(const std::string& folder) const {
-    json record = json::parse(read_text(folder_ / folder / "result.json"));
-    record.erase("performance");
-    return record;
-  }
-};
+class SharedCommands : public StudyCommands {};
 
 TEST_F(SharedCommands, WorkersOfAFolderGiveTheSameResult) {
   ASSERT_EQ(run("optimize s.toml -o one --no-run-file --workers 2 --quiet").exit_code, 0);
