@@ -12,6 +12,10 @@ constexpr double first_hold = 0.1, longest_hold = 20.0;  // s
 constexpr double shortest_hold = 0.05;                   // s, however much slower the steps become
 constexpr double slowed_down = 1.4;                      // over the fastest window: somebody else may have come
 constexpr double clearly_faster = 0.95;                  // of the time a step takes: less is noise
+constexpr double second_look = 4.0;                      // windows that a number which seems faster is timed for
+constexpr double hopeless_time = 0.002, hopeless = 2.0;  // s, and times as slow: a trial need not go on
+constexpr double memory = 0.2;  // of the mean over windows: one window in which the scheduler took the core is no rule
+constexpr int slow_in_a_row = 4;  // windows, for the same reason
 
 }  // namespace
 
@@ -36,11 +40,18 @@ bool ThreadChoice::after_step(double now) {
     return false;
   }
   ++window_steps_;
-  if (window_steps_ < window_steps || now - window_begin_ < window_time) return false;
-  const double per_step = (now - window_begin_) / static_cast<double>(window_steps_);
-  begin_window(now);
+  const double elapsed = now - window_begin_, per_step = elapsed / static_cast<double>(window_steps_);
+  const bool give_up = tried_ != rung_ && elapsed > hopeless_time && per_step > hopeless * best_time_;
+  if (!give_up && (window_steps_ < window_steps || elapsed < (seems_faster_ ? second_look : 1.0) * window_time))
+    return false;
   const int before = threads();
   if (tried_ != rung_) {
+    if (per_step < best_time_ && !seems_faster_) {
+      seems_faster_ = true;
+      return false;
+    }
+    seems_faster_ = false;
+    begin_window(now);
     if (per_step < best_time_) {
       best_ = tried_;
       best_time_ = per_step;
@@ -48,11 +59,14 @@ bool ThreadChoice::after_step(double now) {
     try_next(now);
     return threads() != before;
   }
+  begin_window(now);
   fastest_ = fastest_ > 0.0 ? std::min(fastest_, per_step) : per_step;
+  mean_ = mean_ > 0.0 ? (1.0 - memory) * mean_ + memory * per_step : per_step;
+  slow_ = per_step > slowed_down * fastest_ ? slow_ + 1 : 0;
   const double held = now - decided_;
-  if (held <= hold_ && (per_step <= slowed_down * fastest_ || held < shortest_hold)) return false;
+  if (held <= hold_ && (slow_ < slow_in_a_row || held < shortest_hold)) return false;
   best_ = rung_;
-  best_time_ = clearly_faster * per_step;
+  best_time_ = clearly_faster * (slow_ < slow_in_a_row ? mean_ : per_step);
   tried_ = rungs_.size();  // the round begins before the first
   try_next(now);
   return true;
@@ -66,7 +80,8 @@ void ThreadChoice::try_next(double now) {
   hold_ = best_ == rung_ ? std::max(hold_, std::min(longest_hold, 2.0 * hold_)) : first;
   rung_ = tried_ = best_;
   decided_ = now;
-  fastest_ = 0.0;
+  fastest_ = mean_ = 0.0;
+  slow_ = 0;
 }
 
 }  // namespace perfora::solver

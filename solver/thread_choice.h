@@ -8,9 +8,9 @@
 namespace perfora::solver {
 
 /// Threads of a step wait for each other: one that a busy neighbour keeps off its core holds up all. So a run now and
-/// then times a few steps with each other number of threads, 12 ms a number, and keeps the fastest. That happens after
-/// 0.1 s a number, then after twice as long each time that the number in use is confirmed, at most every 20 s, and soon
-/// when steps become much slower. Results do not depend on the number of threads.
+/// then times a few steps with each other number of threads, 12 ms a number (four times as long one that seems faster),
+/// and keeps the fastest. That happens after 0.1 s a number, then after twice as long each time that the number in use is
+/// confirmed, at most every 20 s, and soon when steps become much slower and stay so. Results do not depend on the number of threads.
 class ThreadChoice {
  public:
   /// Starts with `most` threads.
@@ -33,7 +33,9 @@ class ThreadChoice {
   double decided_ = 0.0;        ///< when the last round ended, s
   double window_begin_ = -1.0;  ///< s; before the first step: none
   std::int64_t window_steps_ = 0;
-  double fastest_ = 0.0;  ///< window since decided_, s a step; 0: none yet
+  bool seems_faster_ = false;  ///< what is on trial, which is then timed for longer
+  double fastest_ = 0.0, mean_ = 0.0;  ///< of the windows since decided_, s a step; 0: none yet
+  int slow_ = 0;                       ///< windows in a row that were much slower than the fastest
 };
 
 }  // namespace perfora::solver
