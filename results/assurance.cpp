@@ -16,12 +16,11 @@ namespace perfora::results {
 
 using nlohmann::json;
 
-double wished_value(const Wish& wish, const Evaluation& evaluation) {
-  const double value = value_of(*wish.measure, evaluation);
+double wished_value(const Measure& measure, const Evaluation& evaluation) {
+  const double value = value_of(measure, evaluation);
   const Summary& summary = evaluation.summary;
-  const bool end_of_plateau = std::string_view(wish.measure->key) == "densification_strain";
-  if (std::isnan(value) && end_of_plateau && std::isfinite(summary.plateau_stress)) return summary.final_strain;
-  return value;
+  const bool end_of_plateau = std::string_view(measure.key) == "densification_strain";
+  return std::isnan(value) && end_of_plateau && std::isfinite(summary.plateau_stress) ? summary.final_strain : value;
 }
 
 Interval binomial_interval(int count, int trials) {
@@ -56,7 +55,7 @@ Assurance assurance_of(const Target& target, std::span<const Evaluation* const> 
     ++found.blocks;
     const bool keeps =
         block->status == RunStatus::completed && std::all_of(all.begin(), all.end(), [&](const Wish& wish) {
-          const double value = wished_value(wish, *block);
+          const double value = wished_value(*wish.measure, *block);
           return wish.low <= value && value <= wish.high;
         });
     found.keeping += keeps;
@@ -65,7 +64,7 @@ Assurance assurance_of(const Target& target, std::span<const Evaluation* const> 
   for (const Wish& wish : all) {
     std::vector<double> values;
     for (const Evaluation* block : blocks)
-      if (const double value = wished_value(wish, *block);
+      if (const double value = wished_value(*wish.measure, *block);
           block->status == RunStatus::completed && std::isfinite(value))
         values.push_back(value);
     if (values.size() >= 2 && !wish.measure->of_packing())

@@ -171,6 +171,7 @@ json to_json(const StudyRecord& record) {
           {"target_tolerance", or_null(record.target_tolerance)},
           {"target_curve", curves_json({record.target_curve}).front()},
           {"window", {or_null(record.window_start), or_null(record.window_end)}},
+          {"caps", to_json(record.caps)},
           {"verdict", record.verdict},
           {"outcome", record.outcome},
           {"best_layout", layout_json(record.best_layout)},
@@ -195,6 +196,7 @@ StudyRecord study_record_from_json(const json& object) {
   record.best = curves_in(object.at("best"));
   record.start = curves_in(object.at("start"));
   record.measured = curves_in(object.value("measured", json::array()));
+  record.caps = stress_caps_from_json(object.value("caps", json::array()));
   record.best_plateau = optional_in(object, "best_plateau");
   record.best_plateau_deviation = optional_in(object, "best_plateau_deviation");
   record.start_plateau = optional_in(object, "start_plateau");

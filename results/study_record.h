@@ -11,6 +11,7 @@
 
 #include "geometry/perforation.h"
 #include "results/curve.h"
+#include "results/stress_cap.h"
 
 namespace perfora::results {
 
@@ -38,6 +39,7 @@ struct StudyRecord {
   std::optional<double> target_tolerance;          ///< Pa, half the height of the band
   Curve target_curve;                              ///< wished stress over strain, instead of one stress; empty: none
   std::optional<double> window_start, window_end;  ///< of the plateau; none where each curve has its own
+  std::vector<StressCap> caps;
   std::string verdict, outcome;                    ///< Verdict::text, outcome_name(); empty where nothing is wished
   std::optional<geometry::PerforationLayout> best_layout, start_layout;
   /// Lines beside the best design: name and value as printed ("diameter", "18.2 mm"), and the value of the start design

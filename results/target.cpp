@@ -138,7 +138,7 @@ void describe(io::Schema& schema, Target& target) {
                                "Weights of a score (docs/user/theory.md, \"Score\"), by the keys of "
                                "measures; 0: left out.");
   weight.real("limits", target.weight_limits, Dimension::none, Range::non_negative(),
-              "(ln(measure/limit))^2 of every limit that is not kept.");
+              "Of every wish that the mean does not keep: (ln floor)^2 + (ln(mean/bound))^2.");
   for (const Measure& measure : measures())
     if (measure.term != Term::none)
       weight.real(measure.key, target.weights[place_of(measure)], Dimension::none, Range::non_negative(),

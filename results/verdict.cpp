@@ -79,7 +79,7 @@ WishVerdict judge(const Wish& wish, std::span<const Evaluation* const> replicate
   std::vector<double> values;
   for (const Evaluation* evaluation : replicates) {
     if (evaluation->status != RunStatus::completed) continue;
-    const double value = wished_value(wish, *evaluation);
+    const double value = wished_value(*wish.measure, *evaluation);
     if (std::isnan(value))
       ++one.missing;
     else
@@ -199,12 +199,15 @@ Verdict verdict_on(const Target& target, std::span<const Evaluation* const> repl
   verdict.fresh = fresh;
   verdict.replicates = static_cast<int>(replicates.size());
   std::vector<double> impact;
+  double window_end = 0.0;
   for (const Evaluation* evaluation : replicates) {
+    window_end = std::max(window_end, evaluation->summary.plateau_end);  // a NaN is passed over
     verdict.failed += evaluation->status != RunStatus::completed;
     impact.push_back(evaluation->summary.impact_ratio);
   }
   verdict.impact_ratio = statistic_of({}, impact).mean;
   for (const Wish& wish : wishes(target)) verdict.wishes.push_back(judge(wish, replicates, target, reach));
+  verdict.caps = stress_caps(target, window_end);
   verdict.outcome = overall(verdict);
   verdict.text = text_of(verdict);
   verdict.note = note_of(verdict);
@@ -233,6 +236,7 @@ json to_json(const Verdict& verdict) {
           {"fresh_seeds", verdict.fresh},
           {"impact_ratio", number(verdict.impact_ratio)},
           {"note", verdict.note},
+          {"caps", to_json(verdict.caps)},
           {"wishes", list}};
 }
 

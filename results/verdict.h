@@ -9,6 +9,7 @@
 
 #include "results/evaluation.h"
 #include "results/interval.h"
+#include "results/stress_cap.h"
 #include "results/target.h"
 
 namespace perfora::results {
@@ -46,6 +47,7 @@ struct Verdict {
   bool fresh = true;                  ///< false: on the seeds that chose the design, which flatter it
   double impact_ratio = not_reached;  ///< mean over the replicates
   std::vector<WishVerdict> wishes;    ///< in the order of results::wishes(); never empty
+  std::vector<StressCap> caps;        ///< of these wishes, for pictures
   std::string text;                   ///< one line: outcome, then the wishes that decide it
   std::string note;                   ///< what the numbers are worth beyond their scatter
 };

@@ -79,7 +79,8 @@ const Visit* best_visit(const Study& study, const Plan& plan) {
 std::string standing_of_map(const Study& study, const Plan& plan) {
   const Visit* best = best_visit(study, plan);
   if (!best) return "map";
-  return fmt::format("map, best so far: score {:.4g}, {}", best->score, best->candidate->label);
+  return fmt::format("map, best so far: score {:.4g}{}, {}", best->score, wishes_text(best->detail),
+                     best->candidate->label);
 }
 
 std::string best_of_map_text(const Study& study, const Plan& plan) {

@@ -1,9 +1,12 @@
 // What is here: the score. What is not: who asks for it.
 #include "optimize/search/objective.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "results/assurance.h"
 #include "results/statistic.h"
 
 namespace perfora::optimize {
@@ -43,11 +46,12 @@ double term_of(const Measure& measure, double x, double level, const Target& tar
   return 0.0;
 }
 
-/// (ln(x/bound))^2 beyond the nearer bound, 0 within.
-double excess_of(const results::Wish& wish, double x, const Target& target) {
-  if (std::isnan(x)) return worst_term(target);
-  if (x < wish.low) return square(std::log(std::max(x / wish.low, target.floor)));
-  if (x > wish.high) return wish.high > 0.0 ? square(std::log(x / wish.high)) : worst_term(target);
+/// What a wish costs that a mean of x does not keep: as much as a measure that was not reached, and (ln(x/bound))^2
+/// beyond the nearer bound; 0 within.
+double cost_of(const results::Wish& wish, double x, const Target& target) {
+  if (std::isnan(x)) return 2.0 * worst_term(target);
+  if (x < wish.low) return worst_term(target) + square(std::log(std::max(x / wish.low, target.floor)));
+  if (x > wish.high) return worst_term(target) + (wish.high > 0.0 ? square(std::log(x / wish.high)) : worst_term(target));
   return 0.0;
 }
 
@@ -57,8 +61,7 @@ std::vector<double> values_of(const Measure& measure, const std::vector<const Ev
   return values;
 }
 
-double mean_of(const Measure& measure, const std::vector<const Evaluation*>& runs) {
-  const std::vector<double> values = values_of(measure, runs);
+double mean_of(const std::vector<double>& values) {
   if (!values.empty() && std::isinf(values.front())) return values.front();  // The wall of a block without holes.
   return results::statistic_of({}, values).mean;
 }
@@ -71,18 +74,23 @@ double weighted_terms(const Target& target, const std::vector<const Evaluation*>
     if (!(target.weights[k] > 0.0) || (!wanted && std::string_view(measure.key) == "target_distance")) continue;
     for (const Evaluation* run : runs) {
       const double level = target.level(run->summary.plateau_start, run->summary.plateau_end);
-      sum += target.weights[k] * term_of(measure, results::value_of(measure, *run), level, target) /
+      sum += target.weights[k] * term_of(measure, results::wished_value(measure, *run), level, target) /
              static_cast<double>(runs.size());
     }
   }
   return sum;
 }
 
-double broken_limits(const Target& target, const std::vector<const Evaluation*>& runs) {
-  double sum = 0.0;
-  for (const results::Wish& wish : results::limits(target))
-    sum += excess_of(wish, mean_of(*wish.measure, runs), target);
-  return target.weight_limits * sum;
+/// Adds what the wishes cost that the means do not keep.
+void add_wishes(const Target& target, const std::vector<const Evaluation*>& runs, Score& score) {
+  for (const results::Wish& wish : results::wishes(target)) {
+    std::vector<double> values;
+    for (const Evaluation* run : runs) values.push_back(results::wished_value(*wish.measure, *run));
+    const double cost = cost_of(wish, mean_of(values), target);
+    ++score.wishes;
+    if (cost > 0.0) ++score.not_kept;
+    score.of_wishes += target.weight_limits * cost;
+  }
 }
 
 }  // namespace
@@ -91,6 +99,11 @@ bool usable(const Evaluation& evaluation) {
   const bool wherever = evaluation.summary.measured.starts_with("found");
   return evaluation.status == results::RunStatus::completed &&
          (wherever || std::isfinite(evaluation.summary.plateau_stress));
+}
+
+std::string wishes_text(const Score& score) {
+  if (score.wishes == 0) return {};
+  return fmt::format(", {} of {} wish{} kept", score.wishes - score.not_kept, score.wishes, score.wishes == 1 ? "" : "es");
 }
 
 Score score_of(const Target& target, std::span<const Evaluation* const> replicates) {
@@ -112,10 +125,11 @@ Score score_of(const Target& target, std::span<const Evaluation* const> replicat
   score.plateau_std = or_zero(plateau.standard_deviation);
   score.undulation_mean = or_zero(statistic("undulation").mean);
   score.first_peak_mean = or_zero(statistic("first_peak_stress").mean);
-  for (const Measure* measure : results::recorded_measures(target)) score.recorded.push_back(mean_of(*measure, runs));
+  for (const Measure* measure : results::recorded_measures(target)) score.recorded.push_back(mean_of(values_of(*measure, runs)));
   score.valid = score.failed == 0 && score.replicates > 0;
   if (!score.valid) return score;
-  const double value = weighted_terms(target, runs) + broken_limits(target, runs);
+  add_wishes(target, runs, score);
+  const double value = weighted_terms(target, runs) + score.of_wishes;
   score.value = std::isfinite(value) ? std::min(value, largest_score) : largest_score;
   return score;
 }

@@ -27,15 +27,21 @@ struct Score {
          plateau_std = 0.0;  ///< Pa, over the replicates that gave one; std with n - 1, 0 for one replicate
   double undulation_mean = 0.0;
   double first_peak_mean = 0.0;  ///< Pa
+  int wishes = 0, not_kept = 0;  ///< wishes of the target, and those that the means do not keep; 0 where invalid
+  double of_wishes = 0.0;        ///< their part of the value
   std::vector<double> recorded;  ///< means of results::recorded_measures(target), NaN where none was reached
 };
 
-/// Sum over the measures of weight x mean over the replicates of the measure's term (results::Term), plus
-/// weight.limits x (ln(mean/limit))^2 of every limit that is not kept, cut at `largest_score`. The terms belong to each
-/// replicate's own curve. A stress or ratio below target.floor (of the target, of 1) counts as that; a measure that was
-/// not reached counts as (ln floor)^2. Source: docs/user/theory.md, "Score".
+/// Sum over the measures of weight x mean over the replicates of the measure's term (results::Term), plus, for every
+/// wish that the means do not keep, weight.limits x ((ln floor)^2 + (ln(mean/bound))^2), cut at `largest_score`: designs
+/// that keep more wishes come first, then those that come closer. The terms belong to each replicate's own curve. A
+/// stress or ratio below target.floor (of the target, of 1) counts as that; a measure that was not reached counts as
+/// (ln floor)^2. Source: docs/user/theory.md, "Score".
 /// `replicates` holds no null pointer; empty: a failure.
 Score score_of(const results::Target& target, std::span<const Evaluation* const> replicates);
+
+/// ", 3 of 4 wishes kept"; empty where there are none.
+std::string wishes_text(const Score& score);
 
 /// Whether an evaluation can be scored: completed, with a plateau where one is measured within a window.
 bool usable(const Evaluation& evaluation);

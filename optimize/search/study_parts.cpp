@@ -109,10 +109,11 @@ std::string csv_row(StudyRun& run, const std::string& stage, std::size_t number,
                                                  : "failed";
   const std::string arm = candidate.arm < 0 ? "start" : study.arms[static_cast<std::size_t>(candidate.arm)].name;
   std::string line = fmt::format("{},{},{}", stage, io::csv_quoted(arm), number);
-  for (const double value : candidate.values) line += fmt::format(",{:.17g}", value);
+  for (const double value : candidate.values) line += fmt::format(",{}", value);
   line += fmt::format(",{},{},{}", io::csv_quoted(status), runs.size(), failed);
-  const auto add = [&](double value) { line += std::isfinite(value) ? fmt::format(",{:.17g}", value) : ","; };
+  const auto add = [&](double value) { line += std::isfinite(value) ? fmt::format(",{}", value) : ","; };
   add(visit.answered ? visit.score : std::nan(""));
+  add(visit.detail.valid ? visit.detail.not_kept : std::nan(""));
   for (const results::Measure& measure : results::measures()) {
     std::vector<double> values;
     for (const Evaluation* one : runs)
@@ -130,6 +131,7 @@ json score_json(const Score& score) {
   if (score.replicates == 0) return nullptr;
   const bool any = score.failed < score.replicates;
   return {{"score", score.valid ? number(score.value) : json(nullptr)},
+          {"wishes_not_kept", score.valid ? json(score.not_kept) : json(nullptr)},
           {"mean", any ? number(score.plateau_mean) : json(nullptr)},
           {"standard_deviation", any ? number(score.plateau_std) : json(nullptr)},
           {"undulation", any ? number(score.undulation_mean) : json(nullptr)},
@@ -168,7 +170,7 @@ std::string candidates_csv(StudyRun& run) {
   const Plan& plan = run.plan();
   std::string text = "stage,arm,number";
   for (const Variable& variable : study.variables) text += "," + variable.key;
-  text += ",status,replicates,failed,score";
+  text += ",status,replicates,failed,score,wishes_not_kept";
   for (const results::Measure& measure : results::measures()) text += fmt::format(",{0},{0}_std", measure.key);
   text += ",reason\n";
   for (std::size_t k = 0; k < plan.map.size(); ++k)
@@ -195,11 +197,16 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
   if (!verdict) return sentences;
   const auto blocks = fresh_blocks(run);
   const double each = run_seconds(study, study.verify_fidelity);
+  // More blocks help only where every mean keeps its wish.
+  const bool means_keep = std::all_of(verdict->wishes.begin(), verdict->wishes.end(), [](const auto& one) {
+    return one.mean >= one.wish.low && one.mean <= one.wish.high;
+  });
   for (const results::WishVerdict& one : verdict->wishes) {
     if (one.outcome != results::Outcome::not_shown || blocks.empty()) continue;
     std::vector<double> values;
     for (const Evaluation* block : blocks)
-      if (block->status == results::RunStatus::completed) values.push_back(results::wished_value(one.wish, *block));
+      if (block->status == results::RunStatus::completed)
+        values.push_back(results::wished_value(*one.wish.measure, *block));
     const results::Statistic of = results::statistic_of({}, values);
     if (of.count < 2) continue;
     const std::string name = results::name_of(*one.wish.measure);
@@ -211,11 +218,10 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
     else if (needed == 0)
       sentences.push_back(fmt::format("{}: with this scatter not even {} blocks would show that it keeps the wish",
                                       name, io::count(most_blocks)));
-    else if (further > 0)
+    else if (further > 0 && means_keep)
       sentences.push_back(
           fmt::format("{}: {} more blocks (study.final_replicates = {}, some {} of one processor) would show that it "
-                      "keeps the wish, "
-                      "if mean and scatter stay as they are",
+                      "keeps the wish, if mean and scatter stay as they are",
                       name, further, needed, io::duration(each * further)));
   }
   const bool missed =

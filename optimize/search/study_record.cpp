@@ -63,8 +63,13 @@ void add_facts(results::StudyRecord& record, const StudyRun& run) {
   record.facts.push_back({"porosity", io::quantity(best.layout.porosity, io::Dimension::ratio),
                           io::quantity(start.layout.porosity, io::Dimension::ratio)});
   const Score& start_score = run.plan().start.detail;
+  const Score& best_score = run.plan().best_score;
   record.facts.push_back(
-      {"score", io::number(run.plan().best_score.value), start_score.valid ? io::number(start_score.value) : ""});
+      {"score", io::number(best_score.value), start_score.valid ? io::number(start_score.value) : ""});
+  const auto kept = [](const Score& score) {
+    return score.valid ? fmt::format("{} of {}", score.wishes - score.not_kept, score.wishes) : std::string();
+  };
+  if (best_score.wishes > 0) record.facts.push_back({"wishes kept", kept(best_score), kept(start_score)});
 }
 
 }  // namespace
@@ -96,6 +101,7 @@ results::StudyRecord study_record(StudyRun& run) {
   if (const auto verdict = verdict_of(run)) {
     record.verdict = verdict->text;
     record.outcome = results::outcome_name(verdict->outcome);
+    record.caps = verdict->caps;
   }
   if (!plan.best) return record;
   const auto best = shown(run, *plan.best, plan.finals.replicates);

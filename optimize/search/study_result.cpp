@@ -152,16 +152,17 @@ std::vector<std::size_t> further_columns(const Study& study) {
 std::string csv_line(const Study& study, const char* stage, const std::string& arm, std::size_t place,
                      const Visit& visit) {
   std::string line = fmt::format("{},{},{}", stage, io::csv_quoted(arm), place);
-  for (std::size_t k = 0; k < study.variables.size(); ++k) line += fmt::format(",{:.17g}", visit.candidate->values[k]);
+  for (std::size_t k = 0; k < study.variables.size(); ++k) line += fmt::format(",{}", visit.candidate->values[k]);
   const bool broken = visit.candidate->violation > 0.0;
   const char* status = broken               ? "breaks a constraint"
                        : !visit.answered    ? "open"
                        : visit.detail.valid ? "completed"
                                             : "failed";
-  line += fmt::format(",{},{:.17g}", io::csv_quoted(status), visit.candidate->violation);
-  auto add = [&](double value, bool known) { line += known ? fmt::format(",{:.17g}", value) : ","; };
+  line += fmt::format(",{},{}", io::csv_quoted(status), visit.candidate->violation);
+  auto add = [&](double value, bool known) { line += known ? fmt::format(",{}", value) : ","; };
   const bool any = visit.detail.replicates > visit.detail.failed;
   add(visit.score, visit.answered);
+  add(visit.detail.not_kept, visit.detail.valid);
   add(visit.detail.plateau_mean, any);
   add(visit.detail.plateau_std, any);
   add(visit.detail.undulation_mean, any);
@@ -254,7 +255,7 @@ std::string evaluations_csv(StudyRun& run) {
   const Study& study = run.study();
   std::string text = "stage,arm,number";
   for (const Variable& variable : study.variables) text += "," + variable.key;
-  text += ",status,violation,score,plateau_mean,plateau_std,undulation,first_peak_stress";
+  text += ",status,violation,score,wishes_not_kept,plateau_mean,plateau_std,undulation,first_peak_stress";
   const auto recorded = results::recorded_measures(study.target);
   for (const std::size_t k : further_columns(study)) text += std::string(",") + recorded[k]->key;
   text += ",replicates,failed\n";

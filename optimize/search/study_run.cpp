@@ -161,7 +161,7 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
 std::string StudyRun::standing_now() {
   std::string text = stage_now(plan_, study_);
   if (!plan_.best) return text;
-  text += fmt::format(", best so far: score {:.4g}", plan_.best_score.value);
+  text += fmt::format(", best so far: score {:.4g}{}", plan_.best_score.value, wishes_text(plan_.best_score));
   if (const auto verdict = verdict_of(*this))
     text += fmt::format(", verdict so far: {}", results::outcome_name(verdict->outcome));
   text += ", " + plan_.best->label;  // last: a terminal may cut it off

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "optimize/model/target_answers.h"
 #include "optimize/search/objective.h"
@@ -57,6 +58,24 @@ TEST_F(ResponseModelTest, FindsTheScatterOfBlocks) {
 TEST_F(ResponseModelTest, CoversLeftOutDesigns) {
   EXPECT_TRUE(model.trusted()) << model.in_words();
   EXPECT_NE(model.in_words().find("leave-one-design-out"), std::string::npos);
+}
+
+// A wish costs (ln 0.05)^2 where it is not kept, so the expected score holds that times the probability, and a little for
+// the distance from the bound.
+TEST_F(ResponseModelTest, WishesCostTheirProbability) {
+  results::Target weighed = target;
+  weighed.weight_limits = 1.0;
+  const TargetAnswers with(weighed, model, [&weighed](std::span<const results::Evaluation* const> blocks) {
+    return optimize::score_of(weighed, blocks).value;
+  });
+  const double step = std::pow(std::log(0.05), 2);
+  for (const double x : {0.15, 0.45, 0.75})
+    for (const double y : {0.35, 0.65, 0.9}) {
+      const Answer one = with.at(model, at(x, y), {});
+      double expected = 0.0;
+      for (const double probability : one.each_wish) expected += step * (1.0 - probability);
+      EXPECT_NEAR(one.score - asked(x, y).score, expected, 0.5 + 0.1 * expected) << x << " " << y;
+    }
 }
 
 // The expected score of noisy blocks lies a little above that of the formula: by the square of their scatter.

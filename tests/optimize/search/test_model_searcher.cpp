@@ -121,7 +121,7 @@ TEST_F(ModelSearcherTest, ModelFindsTheOptimum) {
   const std::vector<Trace> sampled = carried_out(sampling, other, unrelated, stage_of(sampling));
   EXPECT_EQ(traces[0].visits.size() + traces[1].visits.size(), 20U);
   EXPECT_EQ(traces[0].reason, "maxeval reached");
-  EXPECT_LT(best_of(traces), 0.005) << "within 7 % of the wished stress";
+  EXPECT_LT(best_of(traces), 0.0091) << "within 10 % of the wished stress, half the tolerance: (ln 1.1)^2";
   EXPECT_LT(best_of(traces), 0.5 * best_of(sampled));
   EXPECT_GT(traces[0].visits.size(), traces[1].visits.size()) << "the arm that holds the optimum gets more";
   const CandidateStore store(learning, book, known);

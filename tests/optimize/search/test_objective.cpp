@@ -50,15 +50,50 @@ double square(double value) {
   return value * value;
 }
 
+/// What a wish that is not kept costs beyond its distance: (ln floor)^2 with the floor of 5 %.
+const double step = square(std::log(0.05));
+
 TEST(Objective, IsTheSquaredDistanceInLogarithmsAndATenthOfTheCapRatios) {
   const std::vector<Evaluation> runs{run(1e5, 0.0, 2e5), run(4e5, 0.0, 4e5)};
-  // Half and twice the target: ln 2 each; cap ratios 2 and 1.
-  EXPECT_NEAR(score(target_of(2e5), runs).value, square(std::log(2.0)) + 0.1 * 0.5 * square(std::log(2.0)), 1e-14);
+  // Half and twice the target: ln 2 each; cap ratios 2 and 1; their mean of 250 kPa lies beyond 200 kPa + 20 %.
+  EXPECT_NEAR(score(target_of(2e5), runs).value,
+              square(std::log(2.0)) + 0.1 * 0.5 * square(std::log(2.0)) + step + square(std::log(2.5 / 2.4)), 1e-13);
   EXPECT_NEAR(score(target_of(2e5), runs).plateau_std, 3e5 / std::sqrt(2.0), 1e-6);
 }
 
 TEST(Objective, UndershootAndOvershootByOneFactorCostTheSame) {
-  EXPECT_NEAR(score(target_of(2e5), {run(5e4)}).value, score(target_of(2e5), {run(8e5)}).value, 1e-14);
+  Target target = target_of(2e5);
+  target.weight_limits = 0.0;  // tolerances are in percent, so bounds are no factors
+  EXPECT_NEAR(score(target, {run(5e4)}).value, score(target, {run(8e5)}).value, 1e-14);
+}
+
+// Wished 90 kPa within 20 %: a flat curve of 241 kPa is (ln 2.68)^2 = 0.97 away, one whose mean is 88 kPa but which is off
+// by a factor of e throughout (first half too low, then too high) is 1 away, and keeps the wish.
+TEST(Objective, ADesignThatKeepsItsWishesComesBeforeAFlatterOneThatDoesNot) {
+  const Target target = target_of(9e4);
+  const Evaluation flat = run(2.41e5, 0.0, 0.0, 9e4);
+  Evaluation rugged = run(8.8e4, 0.0, 0.0, 9e4);
+  rugged.summary.target_distance = 1.0;
+  EXPECT_LT(flat.summary.target_distance, rugged.summary.target_distance);
+  EXPECT_LT(score(target, {rugged}).value, score(target, {flat}).value);
+  EXPECT_EQ(score(target, {rugged}).not_kept, 0);
+  EXPECT_EQ(score(target, {flat}).not_kept, 1);
+  EXPECT_EQ(score(target, {flat}).wishes, 1);
+  EXPECT_EQ(wishes_text(score(target, {flat})), ", 0 of 1 wish kept");
+}
+
+// The larger part of the wishes first, whatever the distances: each term is at most (ln floor)^2 = 9.
+TEST(Objective, MoreWishesKeptIsAlwaysBetter) {
+  Target target = target_of(2e5);
+  target.weights[place_of("cap_ratio")] = 0.0;
+  target.limits[place_of("undulation")] = {0.3};
+  target.limits[place_of("slope")] = {0.8, 1.25};
+  Evaluation far = run(1.7e5, 0.2), near = run(2e5, 0.31);
+  far.summary.slope = near.summary.slope = 1.0;
+  far.summary.target_distance = std::log(20.0);
+  EXPECT_LE(score(target, {far}).value, score(target, {near}).value);
+  EXPECT_EQ(score(target, {near}).not_kept, 1);
+  EXPECT_EQ(score(target, {near}).wishes, 3);
 }
 
 TEST(Objective, AddsWeightedTermsOfEachCurve) {
@@ -77,14 +112,14 @@ TEST(Objective, ALimitCostsWhereItsMeanIsNotKept) {
   target.weights[place_of("cap_ratio")] = 0.0;
   target.limits[place_of("first_peak_stress")] = {3e5};
   EXPECT_EQ(score(target, {run(2e5, 0.0, 3e5)}).value, 0.0);
-  EXPECT_NEAR(score(target, {run(2e5, 0.0, 5e5), run(2e5, 0.0, 7e5)}).value, square(std::log(2.0)), 1e-14);
+  EXPECT_NEAR(score(target, {run(2e5, 0.0, 5e5), run(2e5, 0.0, 7e5)}).value, step + square(std::log(2.0)), 1e-13);
   target.limits[place_of("first_peak_stress")] = {};
   target.limits[place_of("slope")] = {0.8, 1.25};
   Evaluation steep = run(2e5);
   steep.summary.slope = 2.5;
-  EXPECT_NEAR(score(target, {steep}).value, square(std::log(2.0)), 1e-14);
+  EXPECT_NEAR(score(target, {steep}).value, step + square(std::log(2.0)), 1e-13);
   steep.summary.slope = 0.4;
-  EXPECT_NEAR(score(target, {steep}).value, square(std::log(2.0)), 1e-14);
+  EXPECT_NEAR(score(target, {steep}).value, step + square(std::log(2.0)), 1e-13);
 }
 
 // No plateau was found on the curve: the worst there is, ln(floor) squared, but a number that can be searched on.
@@ -94,7 +129,7 @@ TEST(Objective, ACurveWithoutAFoundPlateauIsWorstNotFailed) {
   without.summary.cap_ratio = nan_value;
   const Score value = score(target_of(2e5), {without});
   EXPECT_TRUE(value.valid);
-  EXPECT_NEAR(value.value, 1.1 * square(std::log(0.05)), 1e-12);
+  EXPECT_NEAR(value.value, (1.1 + 2.0) * step, 1e-12);  // and the wish is not kept: as far off as can be
 }
 
 TEST(Objective, IsFiniteWhateverTheRunsGave) {
