@@ -61,7 +61,10 @@ std::vector<std::string> sections_with(const std::vector<Key>& keys, std::string
   throw InputError(origin, fmt::format("unknown section [{}]", given.section), all, remedy);
 }
 
-[[noreturn]] void refuse_name(const SplitName& given, const std::vector<Key>& keys, Origin origin) {
+[[noreturn]] void refuse_name(const SplitName& given, const std::vector<Key>& keys, const std::vector<NoKey>& no_keys,
+                              Origin origin) {
+  for (const NoKey& one : no_keys)
+    if (one.name == given.section + "." + given.name) throw InputError(origin, one.problem, "", one.remedy);
   std::vector<std::string> here, everywhere;
   for (const Key& key : keys) {
     everywhere.push_back(key.name);
@@ -231,7 +234,7 @@ const Key& Schema::at(std::string_view full_name, Origin origin) const {
   const SplitName given = split(name_today(full_name), sections);
   if (std::find(sections.begin(), sections.end(), given.section) == sections.end())
     refuse_section(given, keys_, sections, origin);
-  refuse_name(given, keys_, origin);
+  refuse_name(given, keys_, no_keys_, origin);
 }
 
 void Schema::set(std::string_view full_name, const Value& value, Origin origin) {

@@ -143,12 +143,18 @@ struct Renaming {
   std::string old_name, name;
 };
 
+/// A name that people expect to be a key and that is none: what is wrong with it, and what to do instead.
+struct NoKey {
+  std::string name, problem, remedy;
+};
+
 /// Which names a text of keys is written with: those of today, or those the keys had at first (hashes and keys of
 /// journals are made of these, so that a renaming leaves them as they are).
 enum class Names { today, first };
 
 /// The table of keys of one options object. An element of a list goes by the name of its key and its place from 0:
-/// "layout.row_diameter[1]", in a list of rows "layout.holes[3][2]"; it must be there already. Not copyable: its keys are bound to that object's fields.
+/// "layout.row_diameter[1]", in a list of rows "layout.holes[3][2]"; it must be there already. Not copyable: its keys
+/// are bound to that object's fields.
 class Schema {
  public:
   Schema() = default;
@@ -170,6 +176,8 @@ class Schema {
   /// Old names that are still taken: of a key ("material.critical_normal_stretch") or of a section ("test"). This is
   /// the one place where names are resolved: files, --set, variables, arms, headers of journals, stored configurations.
   void renamed(Renaming renaming) { renamings_.push_back(std::move(renaming)); }
+  /// A name that is refused with a remedy of its own, wherever it is used.
+  void no_key(NoKey no_key) { no_keys_.push_back(std::move(no_key)); }
   /// What a key is called now; the name itself where it was never renamed.
   std::string name_today(std::string_view full_name) const;
   /// What a key was called at first.
@@ -182,8 +190,8 @@ class Schema {
   /// Whether the name stands for one number, which a study may vary: a numeric key, or an element of a list.
   bool is_number(std::string_view full_name) const;
 
-  /// Sets one key or one element of a list. Throws InputError naming the nearest key for an unknown one, the wanted type, unit or range for a
-  /// bad value.
+  /// Sets one key or one element of a list. Throws InputError naming the nearest key for an unknown one, the wanted
+  /// type, unit or range for a bad value.
   void set(std::string_view full_name, const Value& value, Origin origin);
   /// Sets one number (is_number()) in SI; throws as set() does.
   void set_number(std::string_view full_name, double value, Origin origin);
@@ -196,7 +204,7 @@ class Schema {
   /// Says of every key what `other` says: for a copy of the options it is bound to.
   void take_origins(const Schema& other) { origins_ = other.origins_; }
 
-  /// The complete resolved configuration as TOML text (SI numbers, 17 digits, every key).
+  /// The complete resolved configuration as TOML text (SI numbers that give every double back, every key).
   std::string to_toml(Names names = Names::today) const;
   /// The same without keys at their defaults: it stays as it is when the program learns a new key.
   std::string changed_toml(Names names = Names::today) const;
@@ -210,6 +218,7 @@ class Schema {
   std::vector<Key> keys_;
   std::vector<std::pair<std::string, Origin>> origins_;
   std::vector<Renaming> renamings_;
+  std::vector<NoKey> no_keys_;
   std::vector<Origin> used_old_names_;
 };
 

@@ -76,6 +76,8 @@ bool Key::at_default() const {
 }
 
 std::string Schema::toml(Names names, bool changed_only) const {
+  // What identities are made of stays as it always was written; people and files get the shortest form.
+  const Digits digits = names == Names::first ? Digits::all_17 : Digits::shortest;
   std::string text, section;
   for (const auto& [name, help] : sections_)
     for (const Key& key : keys_) {
@@ -86,7 +88,7 @@ std::string Schema::toml(Names names, bool changed_only) const {
         section = written.substr(0, dot);
         text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
       }
-      text += fmt::format("{} = {}\n", written.substr(dot + 1), toml_literal(key.get(), Digits::all_17));
+      text += fmt::format("{} = {}\n", written.substr(dot + 1), toml_literal(key.get(), digits));
     }
   return text;
 }

@@ -28,14 +28,11 @@ void describe_seeds(io::Schema& schema, Seeds& seeds) {
 }
 
 /// A mortar is known by what is measured on it, and [material] holds what discs need: the way from one to the other.
-void refuse_measured_strengths(const std::vector<io::Entry>& entries, const std::string& file) {
-  for (const io::Entry& entry : entries)
-    for (const char* measured : {"young_modulus", "poisson_ratio", "tensile_strength", "compressive_strength"})
-      if (entry.key == std::string("material.") + measured)
-        throw io::InputError(
-            {file, entry.value.line, entry.key}, "unknown key in [material]: it is measured on specimens", "",
-            "`perfora calibrate` finds the keys that give it, and from = \"calibrated.toml\" takes them "
-            "(docs/user/tutorial-mortar.md)");
+void refuse_measured_strengths(io::Schema& schema) {
+  for (const char* measured : {"young_modulus", "poisson_ratio", "tensile_strength", "compressive_strength"})
+    schema.no_key({std::string("material.") + measured, "unknown key in [material]: it is measured on specimens",
+                   "`perfora calibrate` finds the keys that give it, and from = \"calibrated.toml\" takes them "
+                   "(docs/user/tutorial-mortar.md)"});
 }
 
 /// A material is taken over first, wherever the line stands, so that what the design says itself comes after it.
@@ -60,8 +57,8 @@ void describe(io::Schema& schema, Design& design) {
             apply_calibrated_material(schema, path, origin);
           },
           "File of a calibrated material (calibrated.toml of perfora calibrate): its [material], [packing] and [noise] "
-          "are "
-          "taken over; what the design says of them itself, or what is set later, counts more.");
+          "are taken over; what the design says of them itself, or what is set later, counts more.");
+  refuse_measured_strengths(schema);
   describe_seeds(schema, design.seeds);
 }
 
@@ -81,7 +78,6 @@ DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std:
   path_ = path;
   const std::vector<io::Entry> entries = io::read_toml(path);
   results::require_kind(entries, path, "design");
-  refuse_measured_strengths(entries, path.string());
   io::apply_entries(*schema_, material_first(entries), path.string());
   title_ = io::title_in(entries);
   if (title_.empty()) title_ = path.stem().string();

@@ -295,7 +295,7 @@ TEST(Schema, ResolvedConfigurationHoldsEveryKeyInSi) {
   const std::string text = example.schema.to_toml();
   for (const Key& key : example.schema.keys()) EXPECT_THAT(text, HasSubstr("\n" + key.name + " = "));
   EXPECT_THAT(text,
-              HasSubstr("[layout]\nfamily = \"square\"\ndiameter = 0.021999999999999999\nrows = 6\n"));  // 17 digits
+              HasSubstr("[layout]\nfamily = \"square\"\ndiameter = 0.022\nrows = 6\n"));
 }
 
 TEST(Schema, ReferenceIsATableASection) {
