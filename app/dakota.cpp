@@ -181,7 +181,7 @@ int evaluate_for_dakota(const DakotaFiles& files, const CommonFlags& flags, cons
       text = failure;
       break;
     }
-    text += fmt::format("{:.17g} {}\n", value, measure->key);
+    text += fmt::format("{} {}\n", value, measure->key);
   }
   if (!evaluation || evaluation->status == results::RunStatus::failed) text = failure;
   io::write_file(files.results, text);

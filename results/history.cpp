@@ -101,7 +101,7 @@ std::string history_csv(const History& history) {
   out.push_back('\n');
   for (std::size_t row = 0; row < history.rows(); ++row) {
     for (std::size_t c = 0; c < columns.size(); ++c)
-      fmt::format_to(std::back_inserter(out), "{}{:.17g}", c == 0 ? "" : ",", (history.*columns[c]->values)[row]);
+      fmt::format_to(std::back_inserter(out), "{}{}", c == 0 ? "" : ",", (history.*columns[c]->values)[row]);
     out.push_back('\n');
   }
   return fmt::to_string(out);

@@ -111,7 +111,7 @@ std::string map_csv(const MapRecord& record) {
   text += ",completed,failed";
   for (const Measure& measure : measures()) text += fmt::format(",{0},{0}_std", measure.key);
   text += ",reason\n";
-  const auto add = [&](double value) { text += std::isfinite(value) ? fmt::format(",{:.17g}", value) : ","; };
+  const auto add = [&](double value) { text += std::isfinite(value) ? fmt::format(",{}", value) : ","; };
   for (const MapDesign& one : record.designs) {
     text += fmt::format("{},{}", one.number, io::csv_quoted(one.arm));
     for (const double value : one.values) add(value);

@@ -183,7 +183,7 @@ std::string ensemble_csv(const Ensemble& ensemble) {
                         evaluation.seeds.packing, evaluation.seeds.noise);
     for (const results::Measure* result : results::ensemble_measures()) {
       const double value = results::value_of(*result, evaluation);
-      text += std::isfinite(value) ? fmt::format(",{:.17g}", value) : std::string(",");
+      text += std::isfinite(value) ? fmt::format(",{}", value) : std::string(",");
     }
     text += "\n";
   }

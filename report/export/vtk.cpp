@@ -67,6 +67,32 @@ std::vector<double> in_space(const std::vector<double>& plane) {
   return points;
 }
 
+/// What a column's components along x are of: "velocity" of "velocity_x" where velocity_y comes next.
+std::string vector_name(const std::vector<Column>& columns, std::size_t k) {
+  const std::string& name = columns[k].name;
+  if (!name.ends_with("_x") || k + 1 == columns.size()) return {};
+  std::string whole = name.substr(0, name.size() - 2);
+  return columns[k + 1].name == whole + "_y" ? whole : std::string();
+}
+
+/// As VTK takes them: whole numbers, numbers, and components along x and y as one vector in space (arrows, magnitudes).
+void add_columns(PolyData& file, const std::vector<Column>& columns) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& column = columns[k];
+    if (column.whole) {
+      file.array(column.name, std::vector<std::int64_t>(column.values.begin(), column.values.end()));
+    } else if (const std::string vector = vector_name(columns, k); !vector.empty()) {
+      std::vector<double> plane;
+      for (std::size_t i = 0; i < column.values.size(); ++i)
+        plane.insert(plane.end(), {column.values[i], columns[k + 1].values[i]});
+      file.array(vector, in_space(plane), 3);
+      ++k;
+    } else {
+      file.array(column.name, column.values);
+    }
+  }
+}
+
 void add_points(PolyData& file, const std::vector<double>& plane) {
   file.open("Points");
   file.array("points", in_space(plane), 3);
@@ -85,11 +111,7 @@ void write_discs(const fs::path& path, const Moment& moment) {
   const std::size_t n = moment.position.size() / 2;
   PolyData file(n, "Verts", n);
   file.open("PointData");
-  for (const Column& column : moment.columns)
-    if (column.whole)
-      file.array(column.name, std::vector<std::int64_t>(column.values.begin(), column.values.end()));
-    else
-      file.array(column.name, column.values);
+  add_columns(file, moment.columns);
   file.close("PointData");
   add_points(file, moment.position);
   std::vector<std::int64_t> connectivity(n);
@@ -141,7 +163,7 @@ void write_vtk(const Scene& scene, const fs::path& base) {
     const Moment moment = scene.moment(k);
     const auto file = [&](int part, const char* name) {
       const std::string relative = fmt::format("{}/{:05d}-{}.vtp", folder.filename().string(), scene.number(k), name);
-      entries += fmt::format("<DataSet timestep=\"{:.17g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+      entries += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
                              scene.axis_value(k), part, name, escaped_xml(relative));
       return base.parent_path() / relative;
     };

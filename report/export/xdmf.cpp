@@ -58,7 +58,7 @@ struct Names {
 /// One grid at one time. `body`: topology, geometry, attributes.
 std::string grid(const char* name, TimeAxis axis, const results::FrameInfo& frame, const std::string& body) {
   return fmt::format(
-      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n{}      </Grid>\n", name,
+      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}      </Grid>\n", name,
       axis == TimeAxis::strain ? frame.strain : frame.time, body);
 }
 
@@ -103,13 +103,13 @@ std::string inline_item(Number number, const char* dimensions, const std::string
 }
 
 std::string cell_grid(TimeAxis axis, const results::FrameInfo& cell) {
-  const std::string corners = fmt::format("0 0 {0:.17g} 0 {1:.17g} {2:.17g} {3:.17g} {2:.17g}", cell.h_xx,
+  const std::string corners = fmt::format("0 0 {0} 0 {1} {2} {3} {2}", cell.h_xx,
                                           cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
   return grid("cell", axis, cell,
               topology("Polyline", 1, 5, inline_item(Number::int32, "1 5", "0 1 2 3 0")) +
                   "        <Geometry GeometryType=\"XY\">" + inline_item(Number::float64, "4 2", corners) +
                   "</Geometry>\n" +
-                  attribute("strain", "Cell", inline_item(Number::float64, "1", fmt::format("{:.17g}", cell.strain))));
+                  attribute("strain", "Cell", inline_item(Number::float64, "1", fmt::format("{}", cell.strain))));
 }
 
 /// One part of the block through time.

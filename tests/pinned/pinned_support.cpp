@@ -8,6 +8,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -198,6 +201,26 @@ std::string differences(const json& expected, const json& actual, const std::str
   return found;
 }
 
+std::string same_digits(const std::string& text) {
+  std::string out;
+  const auto belongs_to_a_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
+  for (std::size_t k = 0; k < text.size();) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(text[k])) ||
+                       (text[k] == '-' && k + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[k + 1])));
+    char* end = nullptr;
+    const double number = digit && (k == 0 || !belongs_to_a_word(text[k - 1])) ? std::strtod(&text[k], &end) : 0.0;
+    if (end == nullptr || belongs_to_a_word(*end)) {
+      out += text[k++];
+      continue;
+    }
+    char printed[32];
+    std::snprintf(printed, sizeof printed, "%.17g", number);
+    out += printed;
+    k = static_cast<std::size_t>(end - text.data());
+  }
+  return out;
+}
+
 std::string comparable_table(const std::string& csv, const std::string& pinned) {
   const std::vector<std::string> pinned_lines = lines_of(pinned);
   const std::vector<std::string> known = pinned_lines.empty() ? std::vector<std::string>() : fields_of(pinned_lines[0]);
@@ -214,7 +237,7 @@ std::string comparable_table(const std::string& csv, const std::string& pinned) 
       if (k >= kept.size() || kept[k]) text += fields[k] + ",";
     text += "\n";
   }
-  return text;
+  return same_digits(text);
 }
 
 std::string comparable_text(const std::string& text, const std::string& pinned) {
@@ -252,7 +275,8 @@ std::vector<std::string> finished_in(const fs::path& folder) {
     // By what was asked, not by its key: keys may be made of less than they were.
     const bool asked = what == "evaluation" && event.contains("request");
     if (what == "point" || (what == "evaluation" && !asked)) names.push_back(event.at("key").dump());
-    if (asked) names.push_back(event.at("request").at("design").dump() + event.at("request").at("replicate").dump());
+    if (asked)
+      names.push_back(same_digits(event.at("request").at("design").dump()) + event.at("request").at("replicate").dump());
     if (what == "replicate") names.push_back(event.at("evaluation").at("replicate").dump());
   }
   return names;

@@ -12,6 +12,9 @@
 namespace perfora::test {
 
 std::string read_text(const std::filesystem::path& path);
+/// The text with every number as %.17g prints it: texts are equal where all numbers have the same bits, however many digits
+/// they are written with.
+std::string same_digits(const std::string& text);
 /// Where the committed fixtures stand.
 std::filesystem::path pinned(const std::string& name);
 /// A pinned text in the names of keys and the words of today.
