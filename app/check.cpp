@@ -37,9 +37,11 @@ std::string line(const std::string& label, const std::string& value) {
   return fmt::format("  {:<38} {}\n", label, value);
 }
 
-json estimate_json(const optimize::DesignEstimate& estimate, int threads) {
+json estimate_json(const optimize::DesignFile& design, const optimize::DesignEstimate& estimate, int threads) {
   const bool holes = estimate.perforations > 0;
-  return {{"perforations", estimate.perforations},
+  return {{"width", design.design().layout.cell_width()},
+          {"height", design.design().layout.cell_height()},
+          {"perforations", estimate.perforations},
           {"porosity", estimate.porosity},
           {"thinnest_wall", holes ? json(estimate.thinnest_wall.thickness) : json(nullptr)},
           {"thinnest_wall_pair",
@@ -72,7 +74,7 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
   const std::string memory = optimize::memory_problem(design, largest, flags.common.memory_allowed());
   if (!memory.empty()) warnings.push_back(memory);
   for (std::string& text : optimize::cost_warnings(estimate)) warnings.push_back(std::move(text));
-  const json expected = estimate_json(estimate, threads);
+  const json expected = estimate_json(design, estimate, threads);
   if (flags.common.json) {
     json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
     object.update(expected);

@@ -2,6 +2,9 @@
 // best design's run file and pictures. What is not: the search (optimize/search/driver.h), its folder
 // (optimize/search/study_run.h), drawing (report/).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
 
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
@@ -9,6 +12,7 @@
 #include "app/outputs.h"
 #include "app/reports.h"
 #include "app/workers.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "optimize/search/map_result.h"
 #include "optimize/search/study_result.h"
@@ -30,6 +34,10 @@ struct OptimizeFlags {
   bool no_run_file = false;
   WorkerFlags workers;
 };
+
+std::string wish_text(const results::Wish& wish) {
+  return results::name_of(*wish.measure) + " " + results::range_text(wish);
+}
 
 optimize::WorkOptions run_options(const OptimizeFlags& flags, const optimize::Study& study) {
   optimize::WorkOptions options =
@@ -54,6 +62,34 @@ void say_what_is_known(optimize::StudyRun& run) {
   if (!map || map->designs.empty()) return;
   for (const std::string& sentence : results::out_of_reach(*map)) io::log_warning(sentence);
   if (const std::string best = optimize::best_of_map_text(run.study(), run.plan()); !best.empty()) io::log_info(best);
+}
+
+/// What the results in a folder were for; empty where there are none that can be read.
+std::vector<std::string> wishes_of_results(const fs::path& folder) {
+  std::vector<std::string> texts;
+  try {
+    const nlohmann::json result = nlohmann::json::parse(io::read_file(folder / "result.json"));
+    const auto bound = [](const nlohmann::json& value, double open) {
+      return value.is_number() ? value.get<double>() : open;
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const nlohmann::json& one : result.at("verdict").at("wishes"))
+      if (const results::Measure* measure = results::measure_called(one.at("measure").get<std::string>()))
+        texts.push_back(wish_text({measure, bound(one.at("low"), -infinite), bound(one.at("high"), infinite)}));
+  } catch (const std::exception&) {
+    return {};
+  }
+  return texts;
+}
+
+/// A study that goes on with another wish replaces what was said of the first.
+void say_wish_is_another(const fs::path& folder, const results::Target& target) {
+  const std::vector<std::string> old = wishes_of_results(folder);
+  std::vector<std::string> now;
+  for (const results::Wish& wish : results::wishes(target)) now.push_back(wish_text(wish));
+  if (old.empty() || old == now) return;
+  io::log_warning(fmt::format("{} holds results for another wish ({}): they are replaced; what was simulated is kept",
+                              folder.string(), fmt::join(old, "; ")));
 }
 
 void announce(const optimize::Study& study) {
@@ -96,6 +132,7 @@ int optimize_study(const OptimizeFlags& flags) {
   optimize::WorkOptions options = run_options(flags, study);
   ProgressLine progress("study", flags.common.quiet);
   watch_on_terminal(options, progress);
+  if (flags.resume) say_wish_is_another(options.folder, study.target);
   optimize::StudyRun run(std::move(study), options, flags.wall_time);
   say_what_is_known(run);
   announce(run.study());

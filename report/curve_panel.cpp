@@ -82,6 +82,10 @@ void draw_lines(Chart& chart, const std::vector<Series>& series, const CurveMark
   if (marks.target_stress)
     chart.horizontal(*marks.target_stress * mega, chart.x_axis().low, chart.x_axis().high, palette::green, 2.0,
                      {9.0, 6.0});
+  for (const results::StressCap& cap : marks.caps)
+    if (cap.stress * mega <= chart.y_axis().high)
+      chart.horizontal(cap.stress * mega, 0.0, std::min(cap.until * percent, chart.x_axis().high), palette::vermilion,
+                       2.0, {4.0, 4.0});
   if (marks.plateau_stress && marks.plateau_start && marks.plateau_end)
     chart.horizontal(*marks.plateau_stress * mega, *marks.plateau_start * percent, *marks.plateau_end * percent,
                      plateau_colour, 3.0);
@@ -150,6 +154,16 @@ void annotate_target(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   canvas.text(before ? window - width - 12.0 : chart.box().right() - width - 10.0, y - 9.0, text, style);
 }
 
+/// Above the end of each line, or left out where the line lies beyond the panel.
+void annotate_caps(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
+  for (const results::StressCap& cap : marks.caps) {
+    if (cap.stress * mega > chart.y_axis().high) continue;
+    const double end = std::min(chart.px(cap.until * percent), chart.box().right());
+    canvas.text(end - 6.0, chart.py(cap.stress * mega) - 7.0, cap.text,
+                {.size = 15.0, .colour = palette::vermilion, .align = Align::right, .halo = true});
+  }
+}
+
 /// Captions of the magnified panel, in the gap above it.
 void annotate_magnified(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
   const double y = chart.box().y - 12.0;
@@ -190,6 +204,7 @@ Chart draw_curve_panel(Canvas& canvas, const Box& box, const std::vector<Series>
   annotate_densification(canvas, upper, marks);
   annotate_peak(canvas, upper, marks);
   annotate_cut(canvas, upper, extent);
+  annotate_caps(canvas, upper, marks);
   if (!magnified) {
     annotate_target(canvas, upper, marks);
     return upper;

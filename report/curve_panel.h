@@ -9,6 +9,7 @@
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "results/curve.h"
+#include "results/stress_cap.h"
 
 namespace perfora::report {
 
@@ -26,6 +27,7 @@ struct CurveMarks {
   std::optional<double> plateau_start, plateau_end, plateau_stress;
   std::optional<double> densification_strain;
   std::optional<double> target_stress, target_tolerance;
+  std::vector<results::StressCap> caps;
   std::vector<results::Curve> measured;  ///< drawn thin; the page has their key (measured_curves.h)
 };
 

@@ -61,6 +61,8 @@ CurveMarks marks_of(const results::RunResult& run, const PlotOptions& options) {
   }
   marks.densification_strain = results::summary_number(run.summary, "densification_strain");
   marks.target_stress = options.target_stress;
+  if (const auto verdict = run.summary.find("verdict"); verdict != run.summary.end() && verdict->is_object())
+    marks.caps = results::stress_caps_from_json(verdict->value("caps", nlohmann::json::array()));
   marks.measured = options.measured;
   return marks;
 }
@@ -75,7 +77,7 @@ void draw_heading(Canvas& canvas, const results::RunResult& run, const PlotOptio
               canvas.fit(describe_block(run) + (damage.empty() ? "" : "; " + damage), page_width - 88.0, line_style),
               line_style);
   draw_verdict(canvas, 44.0, 117.0, page_width - 88.0, run.summary);
-  draw_measured_key(canvas, 44.0, 116.0, middle, options.measured);
+  draw_measured_key(canvas, left_margin, page_height - 12.0, middle, options.measured);
   if (run.status != "completed" && !run.status.empty())
     canvas.text(page_width - right_margin, 56.0,
                 canvas.fit(run.status + ": " + run.reason, 420.0, {.size = 18.0, .bold = true}),
@@ -149,7 +151,7 @@ std::vector<Box> snapshot_rooms(const RunPicture& picture, const Box& whole, dou
 void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
   const double width = page_width - right_margin - middle;
   constexpr double gap = 26.0;
-  constexpr double top = 120.0;
+  constexpr double top = 138.0;
   const std::size_t count = picture.snapshots.size();
   if (count == 0) {
     canvas.text(middle + width / 2.0, page_height / 2.0, "no frames in this file (output.frames = \"none\")",
@@ -207,7 +209,7 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
   const results::RunResult& run = *picture.run;
   draw_heading(canvas, run, options);
   const Chart chart =
-      draw_curve_panel(canvas, {left_margin, 156.0, middle - left_margin - 50.0, page_height - 156.0 - 78.0},
+      draw_curve_panel(canvas, {left_margin, 176.0, middle - left_margin - 50.0, page_height - 176.0 - 78.0},
                        {{run.history.strain_yy, run.history.stress_yy}}, marks_of(run, options));
   draw_badges(canvas, chart, picture.snapshots);
   draw_snapshots(canvas, picture);

@@ -73,36 +73,39 @@ void draw_curves(Canvas& canvas, const results::StudyRecord& picture, const Box&
   marks.plateau_stress = picture.best_plateau;
   marks.target_stress = picture.target;
   marks.target_tolerance = picture.target_tolerance;
+  marks.caps = picture.caps;
   marks.measured = picture.measured;
   draw_curve_panel(canvas, box, series, marks, 0.42);
 }
 
-Box room_for(const geometry::PerforationLayout& layout, double right, double bottom, double width, double height) {
-  const double scale = std::min(width / layout.width, height / layout.height);
-  return {right - layout.width * scale, bottom - layout.height * scale, layout.width * scale, layout.height * scale};
-}
-
+/// Start and best design side by side at one scale, both standing on one line.
 void draw_designs(Canvas& canvas, const results::StudyRecord& picture) {
-  const double right = page_width - page_margin;
-  constexpr double bottom = 560.0;
-  double best_left = right;
+  constexpr double right = page_width - page_margin, bottom = 560.0, height = 380.0, gap = 34.0;
+  const auto width_of = [](const auto& layout) { return layout ? layout->width : 0.0; };
+  const auto height_of = [](const auto& layout) { return layout ? layout->height : 0.0; };
+  const double widths = width_of(picture.best_layout) + width_of(picture.start_layout);
+  const double tallest = std::max(height_of(picture.best_layout), height_of(picture.start_layout));
+  if (!(widths > 0.0)) return;
+  const bool both = picture.best_layout && picture.start_layout;
+  const double scale = std::min((right - right_start - (both ? gap : 0.0)) / widths, height / tallest);
+  const auto draw = [&](const geometry::PerforationLayout& layout, double end, const std::string& name,
+                        const Colour& colour) {
+    const Box box{end - layout.width * scale, bottom - layout.height * scale, layout.width * scale,
+                  layout.height * scale};
+    draw_layout(canvas, box, layout);
+    const TextStyle style{.size = 18.0, .colour = mix(colour, palette::ink, 0.3), .bold = true};
+    canvas.text(box.x, box.y - 12.0, canvas.fit(name, box.width, style), style);
+    return box;
+  };
+  double end = right;
   if (picture.best_layout) {
-    const Box box = room_for(*picture.best_layout, right, bottom, 410.0, 410.0);
-    best_left = box.x;
-    draw_layout(canvas, box, *picture.best_layout);
-    canvas.text(
-        box.x, box.y - 12.0,
-        picture.best_number > 0 ? fmt::format("best design (candidate {})", picture.best_number) : "best design",
-        {.size = 18.0, .colour = mix(best_colour, palette::ink, 0.3), .bold = true});
-    draw_scale_bar(canvas, box.right(), box.bottom() + 26.0, box.width / picture.best_layout->width);
+    const std::string name =
+        picture.best_number > 0 ? fmt::format("best design (candidate {})", picture.best_number) : "best design";
+    const Box box = draw(*picture.best_layout, end, name, best_colour);
+    draw_scale_bar(canvas, box.right(), box.bottom() + 26.0, scale);
+    end = box.x - gap;
   }
-  if (picture.start_layout) {
-    const double width = std::min(215.0, best_left - 34.0 - right_start);
-    const Box box = room_for(*picture.start_layout, right_start + width, bottom, width, 410.0);
-    draw_layout(canvas, box, *picture.start_layout);
-    canvas.text(box.x, box.y - 12.0, "start",
-                {.size = 18.0, .colour = mix(start_colour, palette::ink, 0.3), .bold = true});
-  }
+  if (picture.start_layout) draw(*picture.start_layout, end, "start", start_colour);
 }
 
 void draw_fact_table(Canvas& canvas, const results::StudyRecord& picture) {
@@ -139,7 +142,7 @@ void plot_study(const results::StudyRecord& picture, const std::filesystem::path
   canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
   canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
   draw_verdict(canvas, page_margin, 117.0, page_width - 2.0 * page_margin, picture.outcome, picture.verdict);
-  draw_search(canvas, picture, {left_axis, 180.0, left_end - left_axis, 220.0});
+  draw_search(canvas, picture, {left_axis, 198.0, left_end - left_axis, 202.0});
   draw_curves(canvas, picture, {left_axis, 524.0, left_end - left_axis, page_height - 524.0 - 74.0});
   draw_designs(canvas, picture);
   draw_fact_table(canvas, picture);

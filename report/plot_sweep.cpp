@@ -17,7 +17,7 @@ namespace {
 
 constexpr double page_width = 1600.0;
 constexpr double page_margin = 44.0;
-constexpr double first_row = 150.0;
+constexpr double first_row = 168.0;
 constexpr double panel_height = 300.0;
 constexpr double row_gap = 110.0;        ///< below a panel: ticks, label, names of the next row's series
 constexpr double character_width = 8.4;  ///< of tick texts, about
@@ -109,6 +109,12 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
   x.choices = group.places;
   Chart chart(canvas, box, x, measure_axis(picture, group, measure));
+  for (const results::WishedRange& wish : picture.wishes)
+    if (wish.measure == picture.measures[measure]) {
+      const double low = std::max(scale * wish.low, chart.y_axis().low);
+      const double high = std::min(scale * wish.high, chart.y_axis().high);
+      if (low < high) chart.y_band(low, high, palette::green, 0.16);
+    }
   for (const SweepPoint& base : picture.base) {
     const double mean = scale * base.values[measure].mean, half = scale * base.values[measure].half_interval;
     if (!std::isfinite(mean)) continue;
@@ -192,6 +198,7 @@ void draw_names(Canvas& canvas, const SweepPicture& picture, const SweepGroup& g
   else
     for (std::size_t p = 0; p < group.places.size(); ++p) add(group.places[p], ramp(p, group.places.size()));
   if (!picture.base.empty()) add("the design itself", palette::soft_ink);
+  if (!picture.wishes.empty()) add("wished", mix(palette::green, palette::paper, 0.6));
   draw_measured_key(canvas, x, y, page_width - page_margin, picture.measured);
 }
 

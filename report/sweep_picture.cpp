@@ -44,6 +44,7 @@ SweepPicture sweep_picture(const results::SweepRecord& record) {
   picture.outcome = record.outcome;
   picture.measures = record.measures;
   picture.measured = record.measured;
+  picture.wishes = record.wishes;
   std::vector<std::string> groups;
   for (const results::SweepCase& one : record.cases) {
     if (!one.can_run) continue;

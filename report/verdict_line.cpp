@@ -1,7 +1,22 @@
 // What is here: the colour of a verdict. What is not: its words.
 #include "report/verdict_line.h"
 
+#include <algorithm>
+
 namespace perfora::report {
+namespace {
+
+/// Place of the last blank up to which the text fits; its size where there is none.
+std::size_t first_line_end(Canvas& canvas, const std::string& text, double width, const TextStyle& style) {
+  std::size_t end = text.size();
+  for (std::size_t blank = text.find(' '); blank != std::string::npos; blank = text.find(' ', blank + 1)) {
+    if (canvas.text_width(text.substr(0, blank), style) > width) break;
+    end = blank;
+  }
+  return end;
+}
+
+}  // namespace
 
 void draw_verdict(Canvas& canvas, double x, double y, double width, const std::string& outcome,
                   const std::string& text) {
@@ -11,7 +26,15 @@ void draw_verdict(Canvas& canvas, double x, double y, double width, const std::s
                         : bad            ? palette::vermilion
                                          : palette::soft_ink;
   const TextStyle style{.size = 17.0, .colour = colour, .bold = true};
-  canvas.text(x, y, canvas.fit("verdict: " + text, width, style), style);
+  const std::string whole = "verdict: " + text;
+  if (canvas.text_width(whole, style) <= width) {
+    canvas.text(x, y, whole, style);
+    return;
+  }
+  const TextStyle small{.size = 15.0, .colour = colour, .bold = true};
+  const std::size_t end = first_line_end(canvas, whole, width, small);
+  canvas.text(x, y - 5.0, whole.substr(0, end), small);
+  canvas.text(x, y + 15.0, canvas.fit(whole.substr(std::min(end + 1, whole.size())), width, small), small);
 }
 
 void draw_verdict(Canvas& canvas, double x, double y, double width, const nlohmann::json& summary) {

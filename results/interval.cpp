@@ -14,7 +14,9 @@ static_assert(confidence == 0.95, "Statistic gives the interval for 95 %");
 
 Interval mean_interval(const std::vector<double>& values) {
   const Statistic of = statistic_of({}, values);
-  return {of.mean - of.confidence_95, of.mean + of.confidence_95};
+  const double low = of.mean - of.confidence_95;
+  const bool negative = std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
+  return {negative ? low : std::max(0.0, low), of.mean + of.confidence_95};
 }
 
 double tolerance_factor(int count, double fraction) {

@@ -18,8 +18,8 @@ struct Interval {
 };
 
 /// With probability `confidence` it holds the mean of all blocks: Student's t on the values, which assumes that they
-/// scatter about normally (docs/user/theory.md, "Verdict"; its coverage is simulated in tests/results). Two values at
-/// least.
+/// scatter about normally (docs/user/theory.md, "Verdict"; its coverage is simulated in tests/results). Cut at 0 where no
+/// value is below: stresses and ratios have no negative mean. Two values at least.
 Interval mean_interval(const std::vector<double>& values);
 
 /// With probability `confidence` it holds at least `fraction` of all single blocks: the normal tolerance interval with

@@ -72,6 +72,8 @@ constexpr Label material[] = {
 };
 
 constexpr Label estimate[] = {
+    {"width", "width of the block", length},
+    {"height", "height of the block", length},
     {"perforations", "perforations", count},
     {"porosity", "porosity (share of the perforations)", ratio},
     {"thinnest_wall", "thinnest wall", length},

@@ -38,8 +38,16 @@ bool only_where_asked(std::string_view key) {
   return key.starts_with("thinnest_wall") || key == "stroke_at_cap" || key == "stress_until" || key == "target_distance";
 }
 
+/// A largest efficiency at the end of the run is none yet: it still grows there.
+bool at_the_end(std::string_view key, double value, const json& object) {
+  constexpr double smoothing = 0.005;
+  return (key == "efficiency_strain" || key == "densification_onset") &&
+         value >= number_in(object, "final_strain") - smoothing;
+}
+
 /// What to print for a key; empty: nothing.
-std::string entry_text(const Label& label, const json& value) {
+std::string entry_text(const Label& label, const json& value, const json& object) {
+  if (value.is_number() && at_the_end(label.key, value.get<double>(), object)) return "not reached";
   if (value.is_number()) return io::quantity(value.get<double>(), label.dimension);
   if (value.is_string()) return value.get<std::string>();
   return only_where_asked(label.key) ? "" : "not reached";
@@ -91,7 +99,7 @@ std::string lines_text(std::string_view title, const json& object, std::span<con
   for (const Label& label : labels) {
     const auto found = object.find(label.key);
     if (found == object.end()) continue;
-    const std::string value = entry_text(label, *found);
+    const std::string value = entry_text(label, *found, object);
     if (!value.empty()) text += line_text(label.label, value);
     if (label.key == "thinnest_wall") text += wall_pair_text(object);
   }

@@ -9,6 +9,7 @@
 #include "io/files.h"
 #include "io/text.h"
 #include "results/formats.h"
+#include "results/target.h"
 
 namespace perfora::optimize {
 namespace {
@@ -125,6 +126,9 @@ json to_json(const SweepRun& run) {
       {"cases", cases},
       {"performance",
        {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
+  for (const results::Wish& wish : results::wishes(run.sweep().start->design().target))
+    record["wishes"].push_back(
+        {{"measure", wish.measure->key}, {"low", number(wish.low)}, {"high", number(wish.high)}});
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   return record;
 }

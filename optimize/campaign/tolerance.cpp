@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "io/text.h"
@@ -147,6 +148,17 @@ struct ToleranceReader {
     }
   }
 
+  /// What is wished is what is looked at, as far as the picture has room.
+  std::vector<std::string> drawn_measures(std::vector<std::string> usual) const {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> wished;
+    for (const results::Wish& wish : results::wishes(all.sweep.start->design().target))
+      if (!wish.measure->of_packing() && wished.size() < most &&
+          std::find(wished.begin(), wished.end(), wish.measure->key) == wished.end())
+        wished.emplace_back(wish.measure->key);
+    return wished.empty() ? std::move(usual) : wished;
+  }
+
   void make_cases() {
     const ToleranceKeys& keys = all.keys;
     Sweep& sweep = all.sweep;
@@ -154,7 +166,7 @@ struct ToleranceReader {
     sweep.keys.replicates = keys.replicates;
     sweep.keys.base = true;
     sweep.keys.execution = keys.execution;
-    sweep.measures = measures_in(sweep.keys.measures, {});
+    sweep.measures = drawn_measures(measures_in(sweep.keys.measures, {}));
     sweep.warnings = sweep.start->validate();
     SweepCase base;
     base.label = "the design itself";

@@ -25,6 +25,10 @@ Report.wishBand = (low, high, window, scale) => ({
   kind: "y-band", low: low === null ? -Infinity : low * scale, high: high === null ? Infinity : high * scale, from: window && Number.isFinite(window[0]) ? 100 * window[0] : null,
   to: window && Number.isFinite(window[1]) ? 100 * window[1] : null, colour: Report.colour("wish"), label: "wished"});
 
+/** Lines of largest wished stresses. */
+Report.capMarks = (verdict, scale) => (verdict && verdict.caps ? verdict.caps : []).map((cap) => ({
+  kind: "y", at: cap.stress * scale, from: 0, to: cap.until === null ? null : 100 * cap.until, dash: [5, 4], colour: Report.series(2), label: cap.text}));
+
 Report.measuredSeries = (curves, scale) => curves.map((curve, k) => ({
   label: curve.name || "measured", x: Report.percent(curve.strain), y: Report.scaled(curve.stress, scale), colour: Report.series(6 - k), dash: [6, 3], width: 1.6}));
 
@@ -41,8 +45,7 @@ Report.runSections = async (run, name) => {
     if (m.window && 100 * m.window[0] < limits.max) list.push({kind: "x-band", low: 100 * m.window[0], high: 100 * m.window[1], colour: Report.colour("band"), label: "plateau window"});
     for (const wish of run.verdict ? run.verdict.wishes : [])
       if (wish.measure === "plateau_stress") list.push(Report.wishBand(wish.low, wish.high, m.window, unit.scale));
-      else if (wish.measure === "first_peak_stress" && wish.high !== null)
-        list.push({kind: "y", at: wish.high * unit.scale, dash: [5, 4], colour: Report.series(2), label: "largest wished peak"});
+    list.push(...Report.capMarks(run.verdict, unit.scale));
     if (m.plateau_stress !== null && m.window)
       list.push({kind: "y", at: m.plateau_stress * unit.scale, from: 100 * m.window[0], to: 100 * m.window[1], colour: Report.series(1), label: `plateau ${Report.digits(m.plateau_stress * unit.scale)} ${unit.name}`});
     if (m.found_plateau_start !== null && m.found_plateau_stress !== null)

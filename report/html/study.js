@@ -43,6 +43,7 @@ Report.studySections = (work) => {
       const marks = [];
       if (window[0] !== null && window[1] !== null) marks.push({kind: "x-band", low: 100 * window[0], high: 100 * window[1], colour: Report.colour("band"), label: "plateau window"});
       if (work.wish.target !== null) marks.push(Report.wishBand(work.wish.target - (work.wish.tolerance || 0), work.wish.target + (work.wish.tolerance || 0), window, unit.scale));
+      marks.push(...Report.capMarks(work.verdict, unit.scale));
       let series = Report.bandSeries(work.best, "best design", Report.series(0), unit.scale).concat(Report.bandSeries(work.start, "start", Report.series(1), unit.scale), Report.measuredSeries(work.measured, unit.scale));
       if (work.wish.curve) series = series.concat({label: "wished", x: Report.percent(work.wish.curve.strain), y: Report.scaled(work.wish.curve.stress, unit.scale), colour: Report.series(2), dash: [7, 4]});
       return {x: {label: "strain (%)", min: 0}, y: {label: `stress (${unit.name})`, log: state.log, ...(state.log ? {} : {min: 0})}, series, marks};

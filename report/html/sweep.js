@@ -49,7 +49,7 @@ Report.sweepSections = (work, ensemble) => {
   const state = {log: !ensemble};  // a sweep compares curves of different heights
   const redraws = [];
   const windowMarks = () => (work.window.length === 2 && work.window[0] !== null ? [{kind: "x-band", low: 100 * work.window[0], high: 100 * work.window[1], colour: Report.colour("band"), label: "plateau window"}] : []);
-  const wishes = () => (work.verdict ? work.verdict.wishes.filter((wish) => wish.measure === "plateau_stress").map((wish) => Report.wishBand(wish.low, wish.high, work.window, unit.scale)) : []);
+  const wishes = () => (work.verdict ? work.verdict.wishes.filter((wish) => wish.measure === "plateau_stress").map((wish) => Report.wishBand(wish.low, wish.high, work.window, unit.scale)).concat(Report.capMarks(work.verdict, unit.scale)) : []);
   const curveFigure = (caption, series, bands = true) => {
     const figure = chart(caption, () => ({
       x: {label: "strain (%)", min: 0}, y: {label: `stress (${unit.name})`, log: state.log, ...(state.log ? {} : {min: 0})},

@@ -73,6 +73,28 @@ window = [0.05, 0.1]
 [arms]
 family = ["square", "staggered"]
 )";
+constexpr const char* stages = R"([study]
+design = "design.toml"
+algorithm = "model"
+maxeval = 4
+batch = 2
+replicates = 1
+final_replicates = 3
+until = 0.11
+[target]
+plateau_stress = "0.2 MPa"
+window = [0.05, 0.1]
+[variables]
+"layout.diameter" = ["6 mm", "9 mm"]
+"material.grade" = [0.8, 1.2]
+[map]
+designs = 8
+replicates = 1
+[race]
+finalists = 3
+keep = 2
+replicates = 1
+)";
 constexpr const char* sweep = R"([sweep]
 design = "design.toml"
 replicates = 2
@@ -105,6 +127,7 @@ const std::vector<Command>& commands() {
       {"evaluate", {"evaluate", "design.toml"}, "R.h5"},
       {"replicates", {"evaluate", "design.toml", "--replicates", "2"}, "work"},
       {"optimize", {"optimize", "study.toml"}, "work", true},
+      {"stages", {"optimize", "stages.toml"}, "work", true},  // map, model, race, verification
       {"map", {"map", "study.toml", "--designs", "3"}, "work", true},
       {"sweep", {"sweep", "sweep.toml"}, "work", true},
       {"tolerance",
@@ -211,6 +234,7 @@ class KillMatrix : public testing::TestWithParam<Command> {
     write("larger.toml", larger);
     write("solid.toml", solid);
     write("study.toml", study);
+    write("stages.toml", stages);
     write("sweep.toml", sweep);
     write("calibration.toml", calibration);
   }

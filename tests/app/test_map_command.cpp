@@ -43,6 +43,13 @@ TEST_F(MapCommand, ServesAStudyWithoutRunningAgain) {
   EXPECT_TRUE(fs::exists(folder_ / "r" / "candidates.csv"));
   EXPECT_EQ(run("plot m -o again.png --quiet").exit_code, 0);
 
+  // Another wish in the same folder: what is replaced is said.
+  EXPECT_EQ(study.error.find("another wish"), std::string::npos) << study.error;
+  const Outcome changed = run("optimize s.toml -o r --resume --map m --no-run-file --set target.plateau_stress=3e5");
+  ASSERT_EQ(changed.exit_code, 0) << changed.error;
+  EXPECT_NE(changed.error.find("holds results for another wish (plateau stress 320 to 480 kPa)"), std::string::npos)
+      << changed.error;
+
   // A wish that nothing comes near, on the same map: said before anything is run.
   const Outcome far = run("optimize s.toml -o far --map m --no-run-file --set target.plateau_stress=9e7");
   EXPECT_EQ(far.error.find("out of the reachable range") < far.error.find("evaluation"), true) << far.error;

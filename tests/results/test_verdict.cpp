@@ -25,6 +25,10 @@ TEST(Interval, HowesFactorsAreThePublishedOnes) {
 
 // t = 2.776 for 4 degrees of freedom: 1 to 5 have mean 3 and deviation sqrt(2.5).
 TEST(Interval, MeanIntervalIsStudents) {
+  // Two blocks say little: Student's half-width of 1 and 3 is 12.71; no mean of what is never negative lies below 0.
+  EXPECT_EQ(mean_interval({1.0, 3.0}).low, 0.0);
+  EXPECT_NEAR(mean_interval({1.0, 3.0}).high, 2.0 + 12.7062, 1e-4);
+  EXPECT_NEAR(mean_interval({-1.0, 3.0}).low, 1.0 - 2.0 * 12.7062, 1e-3);
   const Interval interval = mean_interval({1.0, 2.0, 3.0, 4.0, 5.0});
   EXPECT_NEAR(interval.low, 3.0 - 2.776 * std::sqrt(2.5 / 5.0), 1e-3);
   EXPECT_NEAR(interval.high, 3.0 + 2.776 * std::sqrt(2.5 / 5.0), 1e-3);
