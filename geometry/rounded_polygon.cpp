@@ -1,6 +1,9 @@
 // What is here: a core and its radius as one shape. What is not: the core alone (polygon_core.cpp).
 #include "geometry/rounded_polygon.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/polygon_checks.h"
@@ -21,6 +24,34 @@ std::shared_ptr<const PolygonCore> corners_only(const RoundedPolygon& shape) {
     }
   }
   return std::make_shared<const PolygonCore>(std::move(corners));
+}
+
+/// Length of the line y = offset (upright: x = offset) within a convex polygon that is wider by `radius` all round: from
+/// the first to the last of its crossings with the circles about the corners and with the edges moved outwards.
+double rounded_chord(const std::vector<Point>& corners, double radius, double offset, bool upright) {
+  const std::size_t count = corners.size();
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  const auto take = [&](double x) {
+    first = std::min(first, x);
+    last = std::max(last, x);
+  };
+  const auto turned = [&](Point p) { return upright ? Point{p.y, p.x} : p; };
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point a = turned(corners[k]), b = turned(corners[(k + 1) % count]);
+    const double above = offset - a.y;
+    if (std::abs(above) <= radius) {
+      const double half = std::sqrt(radius * radius - above * above);
+      take(a.x - half);
+      take(a.x + half);
+    }
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    for (const double side : {radius / length, -radius / length}) {
+      const Point move{side * (b.y - a.y), side * (a.x - b.x)};
+      const double from = a.y + move.y - offset, to = b.y + move.y - offset;
+      if ((from <= 0.0) != (to <= 0.0)) take(a.x + move.x + from / (from - to) * (b.x - a.x));
+    }
+  }
+  return std::max(0.0, last - first);
 }
 
 }  // namespace
@@ -81,11 +112,12 @@ double RoundedPolygon::smallest_extent() const {
 }
 
 double RoundedPolygon::level_chord(double offset) const {
-  return corners_only(*this)->chord({0.0, offset}, {1.0, 0.0});
+  return radius > 0.0 ? rounded_chord(core->corners(), radius, offset, false)
+                      : core->chord({0.0, offset}, {1.0, 0.0});
 }
 
 double RoundedPolygon::upright_chord(double offset) const {
-  return corners_only(*this)->chord({offset, 0.0}, {0.0, 1.0});
+  return radius > 0.0 ? rounded_chord(core->corners(), radius, offset, true) : core->chord({offset, 0.0}, {0.0, 1.0});
 }
 
 double RoundedPolygon::shared_area(double distance) const {

@@ -131,7 +131,7 @@ Campaign run_ensemble(const Design& design, int replicates, const CampaignOption
     if (replicates < 1)
       throw io::InputError({"replicates", 0, ""}, "is " + std::to_string(replicates), "a number from 1 is wanted");
     const optimize::DesignFile file = Inside::file(design).clone();
-    static_cast<void>(file.validate());
+    file.require_valid();
     ProgressRelay relay(options.progress, options.stop);
     optimize::EnsembleOptions work;
     work.evaluate.threads = thread_count(options.threads);

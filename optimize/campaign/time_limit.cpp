@@ -20,7 +20,7 @@ double estimate_of(const Request& request, int threads) {
     DesignFile design = DesignFile::of(*request.design, "request");
     if (!request.material_test.empty()) design = material_sample(design);
     design.design().solver.loading.until = request.strain();
-    static_cast<void>(design.validate());
+    design.require_valid();
     const double seconds = estimate_design(design, threads).seconds;
     return std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
   } catch (const io::InputError&) {  // The worker says what is wrong with it.

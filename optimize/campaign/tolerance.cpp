@@ -140,7 +140,7 @@ struct ToleranceReader {
 
   void check(SweepCase& made, const Design& changed, int replicate) {
     try {
-      static_cast<void>(DesignFile::of(changed, "tolerance").validate());
+      DesignFile::of(changed, "tolerance").require_valid();
     } catch (const io::InputError& error) {
       if (!made.problem.empty()) return;
       made.problem = fmt::format("block {}: {}", replicate + 1, error.problem());

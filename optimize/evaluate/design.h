@@ -78,6 +78,8 @@ class DesignFile {
   /// overlapping holes, too many holes. Throws io::InputError; returns warnings (walls thinner than 2 r_H, a coarse
   /// packing and what it costs, ...). An imported packing is read.
   std::vector<std::string> validate(Purpose purpose = Purpose::run) const;
+  /// Throws as validate() does and warns of nothing: for designs that a search makes by the thousand.
+  void require_valid(Purpose purpose = Purpose::run) const;
 
  private:
   std::unique_ptr<Design> design_;

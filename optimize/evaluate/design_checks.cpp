@@ -292,7 +292,9 @@ void warn_about_window(const Design& design, std::vector<std::string>& warnings)
       io::quantity(until, io::Dimension::ratio), io::quantity(measures.plateau_end, io::Dimension::ratio)));
 }
 
-std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose) {
+enum class Warnings { all, cheap };
+
+std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose, Warnings warn) {
   std::vector<std::string> warnings;
   check_size_law(design, schema);
   check_disc_count(design, schema);
@@ -310,7 +312,7 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   results::validate(design.target, design.measures, schema);
   for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);
-  warn_about_idle_keys(design, schema, warnings);
+  if (warn == Warnings::all) warn_about_idle_keys(design, schema, warnings);
   warn_about_resolution(design, mean_diameter, warnings);
   if (purpose == Purpose::run) warn_about_window(design, warnings);
   return warnings;
@@ -334,8 +336,17 @@ io::InputError at_home(const io::InputError& error, const Design& design, const 
 std::vector<std::string> DesignFile::validate(Purpose purpose) const {
   try {
     std::vector<std::string> warnings = schema_->notices();
-    for (std::string& warning : checked(*design_, *schema_, purpose)) warnings.push_back(std::move(warning));
+    for (std::string& warning : checked(*design_, *schema_, purpose, Warnings::all))
+      warnings.push_back(std::move(warning));
     return warnings;
+  } catch (const io::InputError& error) {
+    throw at_home(error, *design_, path_);
+  }
+}
+
+void DesignFile::require_valid(Purpose purpose) const {
+  try {
+    static_cast<void>(checked(*design_, *schema_, purpose, Warnings::cheap));
   } catch (const io::InputError& error) {
     throw at_home(error, *design_, path_);
   }

@@ -110,7 +110,7 @@ Evaluation evaluate_request(const Request& request, int threads, const io::Cance
       return evaluate_material_test(design, material_test_called(request.material_test), request.replicate, threads,
                                     cancellation);
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
-    static_cast<void>(design.validate());
+    design.require_valid();
     if (const std::string problem = memory > 0.0 ? memory_problem(design, memory) : std::string(); !problem.empty())
       throw io::SurroundingsError(problem + "; fewer --workers leave each more, --memory SIZE allows more");
     EvaluateOptions options;

@@ -29,7 +29,7 @@ std::string label_of(const Study& study, int arm, std::span<const double> values
 Request request_at(const DesignFile& design, const Fidelity& fidelity, const std::string& file) {
   DesignFile resolved = design.clone();
   apply(fidelity, resolved, {file, 0, ""});
-  static_cast<void>(resolved.validate());
+  resolved.require_valid();
   Request request = make_request(resolved, 0, fidelity.until);
   request.fidelity = fidelity.name;
   return request;

@@ -102,6 +102,20 @@ class ModelSearch {
     return answered;
   }
 
+  /// What is known while points of a batch are chosen.
+  struct Pick {
+    Known taken;                        ///< points that are no use any more
+    std::map<int, Points> places;       ///< the same, by arm
+    double best = largest_score;        ///< lowest expected score
+    const Candidate* leader = nullptr;  ///< the evaluated design that it is expected of
+  };
+
+  /// The same at the beginning of a batch, with its first point; no place where no point keeps the constraints.
+  struct First {
+    Pick pick;
+    std::optional<Place> place;
+  };
+
   std::vector<Trace> finished(const std::string& reason) {
     for (Trace& trace : traces_) {
       trace.finished = true;
@@ -128,19 +142,19 @@ class ModelSearch {
       return replayed_batch();
     }
     note(model.in_words());
-    if (gains_little(model, known_) && gained_little_before()) {
+    First first = first_of(model, known_);
+    if (gains_little(model, first) && gained_little_before()) {
       ended_ = "hardly anything to gain is expected";
       return {};
     }
-    return improving_batch(model);
+    return improving_batch(model, std::move(first));
   }
 
   /// Whether the largest expected improvement is small beside what is not known of the leader's own score.
-  bool gains_little(StudyModel& model, const Known& known) const {
-    const Pick first = begun(model, known);
-    const std::optional<Place> place = best_place(model, first);
-    if (!place || !first.leader) return false;
-    return model.against(at(*place), first.best).improvement < little_gain * model.at(*first.leader).score_error;
+  bool gains_little(StudyModel& model, const First& first) const {
+    const Pick& pick = first.pick;
+    if (!first.place || !pick.leader) return false;
+    return model.against(at(*first.place), pick.best).improvement < little_gain * model.at(*pick.leader).score_error;
   }
 
   /// The same of the model as it was before the last batch.
@@ -151,7 +165,7 @@ class ModelSearch {
     if (last == 0) return false;
     const std::span<const Candidate* const> before(visited_.data(), visited_.size() - last);
     StudyModel model(store_, before, store_.study().keys.replicates);
-    return model.trusted() && gains_little(model, Known(before.begin(), before.end()));
+    return model.trusted() && gains_little(model, first_of(model, Known(before.begin(), before.end())));
   }
 
   /// The next Sobol points of the arms in turn that keep the constraints.
@@ -220,14 +234,6 @@ class ModelSearch {
     return options;
   }
 
-  /// What is known while points of a batch are chosen.
-  struct Pick {
-    Known taken;                        ///< points that are no use any more
-    std::map<int, Points> places;       ///< the same, by arm
-    double best = largest_score;        ///< lowest expected score
-    const Candidate* leader = nullptr;  ///< the evaluated design that it is expected of
-  };
-
   void take_up(Pick& pick, const Candidate& candidate) const {
     if (pick.taken.insert(&candidate).second)
       pick.places[candidate.arm].push_back(store_.study().point_of(candidate.values));
@@ -257,11 +263,17 @@ class ModelSearch {
     return pick;
   }
 
-  PlacesOfBatch improving_batch(StudyModel& model) const {
+  First first_of(StudyModel& model, const Known& known) const {
+    First first{begun(model, known), std::nullopt};
+    first.place = best_place(model, first.pick);
+    return first;
+  }
+
+  PlacesOfBatch improving_batch(StudyModel& model, First first) const {
     PlacesOfBatch batch;
-    Pick pick = begun(model, known_);
+    Pick pick = std::move(first.pick);
     while (static_cast<int>(batch.size()) < batch_size()) {
-      std::optional<Place> place = best_place(model, pick);
+      std::optional<Place> place = batch.empty() ? std::move(first.place) : best_place(model, pick);
       if (!place) break;
       const Candidate& candidate = at(*place);
       take_up(pick, candidate);

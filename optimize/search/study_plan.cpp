@@ -50,7 +50,7 @@ double run_seconds(const Study& study, std::size_t fidelity) {
   if (study.costs[fidelity] > 0.0) return study.costs[fidelity];
   DesignFile design = study.start->clone();
   apply(study.fidelities[fidelity], design, {study.file.string(), 0, ""});
-  static_cast<void>(design.validate());
+  design.require_valid();
   return estimate_design(design, 1).seconds;
 }
 

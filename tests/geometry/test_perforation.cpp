@@ -236,6 +236,26 @@ TEST(Perforation, GapToItsImageIsThatOfTwoHoles) {
     }
 }
 
+// A slot of length l and breadth b = 2 r, turned by t: its level chord through the centre is b / sin(t) where the flat sides
+// bound it; lying, it is l - b + 2 sqrt(r^2 - d^2) at the height d.
+TEST(Perforation, ChordsOfASlotAreExact) {
+  constexpr double half = 0.4, radius = 0.1;
+  const auto slot = [&](double angle) {
+    const Point end{half * std::cos(angle), half * std::sin(angle)};
+    return RoundedPolygon{std::make_shared<const PolygonCore>(std::vector<Point>{{-end.x, -end.y}, end}), radius};
+  };
+  const RoundedPolygon lying = slot(0.0);
+  for (const double d : {-0.09, 0.0, 0.06})
+    EXPECT_NEAR(lying.level_chord(d), 2.0 * half + 2.0 * std::sqrt(radius * radius - d * d), 1e-15) << d;
+  EXPECT_EQ(lying.level_chord(0.11), 0.0);
+  EXPECT_NEAR(lying.upright_chord(0.3), 2.0 * radius, 1e-15);
+  EXPECT_NEAR(lying.upright_chord(0.46), 2.0 * std::sqrt(radius * radius - 0.06 * 0.06), 1e-15);
+  for (const double angle : {0.5, 1.0, 2.0}) {
+    EXPECT_NEAR(slot(angle).level_chord(0.0), 2.0 * radius / std::sin(angle), 1e-14) << angle;
+    EXPECT_NEAR(slot(angle).upright_chord(0.0), 2.0 * radius / std::abs(std::cos(angle)), 1e-14) << angle;
+  }
+}
+
 TEST(Perforation, ChordsAndSharedAreasAreThoseOfManyPoints) {
   for (const Perforation& one : samples(5)) {
     Uniform u(500);
