@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "io/progress.h"
 #include "io/text.h"
+#include "optimize/campaign/evaluation_queue.h"
 #include "optimize/search/map_import.h"
 #include "optimize/search/map_result.h"
 #include "optimize/search/study_result.h"
@@ -112,6 +113,18 @@ StudyRun::Taken StudyRun::read_map(const WorkOptions& options) {
 void StudyRun::take_map(Taken taken) {
   if (taken.designs == 0) return;
   const std::filesystem::path& from = study_.keys.map.from;
+  // Another wish is measured on whole histories; a folder that was copied without them answers its own wish alone.
+  const std::string frame = study_.start->design().measuring_frame().text();
+  const auto lost = std::count_if(taken.events.begin(), taken.events.end(), [&](const json& event) {
+    const json& run = event.at("evaluation");
+    return run.value("status", "") == "completed" && run.value("measured", "") != frame &&
+           !std::filesystem::exists(from / EvaluationQueue::history_file(event.at("key").get<std::string>()));
+  });
+  if (lost > 0)
+    io::log_warning(fmt::format(
+        "{} of the {} runs in {} are without their history (folder histories): what they give for this target is not "
+        "known, so they are run again; copy the folder whole",
+        lost, taken.events.size(), from.string()));
   for (json& event : taken.events) take_over(std::move(event), from);
   note({{"event", "map_taken"}, {"from", from.string()}, {"designs", taken.designs}});
 }

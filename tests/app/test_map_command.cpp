@@ -43,6 +43,18 @@ TEST_F(MapCommand, ServesAStudyWithoutRunningAgain) {
   EXPECT_TRUE(fs::exists(folder_ / "r" / "candidates.csv"));
   EXPECT_EQ(run("plot m -o again.png --quiet").exit_code, 0);
 
+  // A journal that was copied alone serves its own wish; for another one its runs are made again, which is said.
+  fs::create_directory(folder_ / "alone");
+  fs::copy_file(folder_ / "m" / "journal.jsonl", folder_ / "alone" / "journal.jsonl");
+  const Outcome same = run("optimize s.toml -o same --map alone --no-run-file --workers 2");
+  EXPECT_EQ(same.error.find("without their history"), std::string::npos) << same.error;
+  const Outcome alone =
+      run("optimize s.toml -o without --map alone --no-run-file --workers 2 --set target.plateau_stress=3e5");
+  EXPECT_EQ(alone.exit_code, 0) << alone.error;
+  EXPECT_NE(alone.error.find("4 of the 4 runs in " + (folder_ / "alone").string() + " are without their history"),
+            std::string::npos)
+      << alone.error;
+
   // Another wish in the same folder: what is replaced is said.
   EXPECT_EQ(study.error.find("another wish"), std::string::npos) << study.error;
   const Outcome changed = run("optimize s.toml -o r --resume --map m --no-run-file --set target.plateau_stress=3e5");
