@@ -42,8 +42,8 @@ std::string read_beginning(const std::filesystem::path& path, std::size_t size);
 /// Refuses a name that leaves no room for what is written beside it (R.xdmf.h5, R.part, temporary files). InputError.
 void check_name_length(const std::filesystem::path& path);
 /// Refuses an output that exists unless `force` or `resume`; InputError says which flags there are. Also refuses what
-/// exists and is no regular file, a name that is too long, and a folder that is missing or not writable. Symbolic links
-/// are followed.
+/// exists and is no regular file, a name that is too long, and a folder that is not writable. A folder that is missing
+/// is made by the lock. Symbolic links are followed.
 void check_output(const std::filesystem::path& path, bool force, bool resume);
 std::uint32_t crc32(std::string_view text);
 /// Goes on from the CRC-32 of what stands before `text`.

@@ -261,7 +261,7 @@ fs::path lock_file(const fs::path& output) {
 
 class OutputLock::Held {
  public:
-  explicit Held(const fs::path& output) : path_(fs::absolute(lock_file(output))) {
+  explicit Held(const fs::path& output) : path_(fs::absolute(lock_file(output))), folders_(path_.parent_path()) {
     while (!link_own(output)) {
       const std::optional<Found> there = found_at(path_, now_);
       if (!there) continue;
@@ -287,6 +287,27 @@ class OutputLock::Held {
   Held& operator=(const Held&) = delete;
 
  private:
+  /// A folder and those above it, made where they are missing; the ones that are empty at the end are removed.
+  class MadeFolders {
+   public:
+    /// Throws SurroundingsError.
+    explicit MadeFolders(const fs::path& folder) {
+      std::error_code ignored;
+      for (fs::path one = folder; !one.empty() && !fs::exists(one, ignored); one = one.parent_path())
+        made_.push_back(one);
+      if (!made_.empty()) make_folders(folder);
+    }
+    ~MadeFolders() {
+      for (const fs::path& one : made_)
+        if (::rmdir(one.c_str()) != 0) break;
+    }
+    MadeFolders(const MadeFolders&) = delete;
+    MadeFolders& operator=(const MadeFolders&) = delete;
+
+   private:
+    std::vector<fs::path> made_;  ///< the innermost first
+  };
+
   /// True: the lock is ours.
   bool link_own(const fs::path& output) {
     const fs::path temporary = temporary_name(path_);
@@ -316,6 +337,7 @@ class OutputLock::Held {
   }
 
   fs::path path_;
+  MadeFolders folders_;  ///< outlives the lock file
   Litter litter_;
   ino_t inode_ = 0;
   dev_t device_ = 0;

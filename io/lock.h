@@ -17,6 +17,7 @@ namespace perfora::io {
 ///  - taken over where its process has ended: it ran on this host, and no process of that number and start is left, or
 ///    the host was started anew since then and the lock shows no sign of life for a minute;
 ///  - respected otherwise. Of a process on another host nothing can be known for certain, so the user decides.
+/// A folder that is missing is made, and goes again with the object where nothing was put into it.
 /// The file goes with the object, and by remove_litter() (litter.h) where a signal handler ends the process.
 class OutputLock {
  public:

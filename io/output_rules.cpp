@@ -58,12 +58,16 @@ void check_output(const std::filesystem::path& path, bool force, bool resume) {
   if (path.empty()) throw InputError(origin, "the output has no name", "", "give one with -o");
   check_name_length(path);
   const std::filesystem::path target = output_target(path), folder = containing_folder(target);
+  // The lock makes a folder that is missing (lock.h), in the nearest one that is there.
   std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored))
-    throw InputError(origin, "its folder " + folder.string() + " does not exist", "",
-                     "make the folder or choose another output");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(origin, "its folder " + folder.string() + " is not writable", "", "choose another output");
+  std::filesystem::path there = folder;
+  while (!std::filesystem::exists(there, ignored) && there.has_relative_path()) there = containing_folder(there);
+  if (!std::filesystem::is_directory(there, ignored))
+    throw InputError(origin,
+                     fmt::format("its folder {} cannot be made: {} is no folder", folder.string(), there.string()), "",
+                     "choose another output");
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw InputError(origin, "its folder " + there.string() + " is not writable", "", "choose another output");
   struct stat status {};
   if (::lstat(target.c_str(), &status) != 0) return;
   if (const std::string kind = kind_of_file(status.st_mode); !kind.empty())

@@ -221,8 +221,12 @@ TEST_F(Lock, RemovesWhatKilledWritersOfItsOutputLeft) {
   EXPECT_TRUE(fs::exists(folder / "R.tmp-x")) << "no temporary";
 }
 
-TEST_F(Lock, FolderThatIsMissing) {
-  EXPECT_THAT(input_error([&] { OutputLock(folder / "none/R.h5"); }), HasSubstr("cannot be locked"));
+TEST_F(Lock, FolderThatIsMissingIsMadeAndGoesAgainWhenEmpty) {
+  {
+    const OutputLock made(folder / "none/R.h5");
+    EXPECT_TRUE(std::filesystem::exists(folder / "none/R.h5.lock"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
 TEST(Litter, GoesWhenASignalEndsTheProcess) {

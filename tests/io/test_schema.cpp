@@ -294,8 +294,7 @@ TEST(Schema, ResolvedConfigurationHoldsEveryKeyInSi) {
   example.schema.set_override("layout.diameter=22mm");
   const std::string text = example.schema.to_toml();
   for (const Key& key : example.schema.keys()) EXPECT_THAT(text, HasSubstr("\n" + key.name + " = "));
-  EXPECT_THAT(text,
-              HasSubstr("[layout]\nfamily = \"square\"\ndiameter = 0.022\nrows = 6\n"));
+  EXPECT_THAT(text, HasSubstr("[layout]\nfamily = \"square\"\ndiameter = 0.022\nrows = 6\n"));
 }
 
 TEST(Schema, ReferenceIsATableASection) {
