@@ -26,8 +26,8 @@ std::shared_ptr<const PolygonCore> corners_only(const RoundedPolygon& shape) {
   return std::make_shared<const PolygonCore>(std::move(corners));
 }
 
-/// Length of the line y = offset (upright: x = offset) within a convex polygon that is wider by `radius` all round: from
-/// the first to the last of its crossings with the circles about the corners and with the edges moved outwards.
+/// Length of the line y = offset (upright: x = offset) within a convex polygon that is wider by `radius` all round:
+/// from the first to the last of its crossings with the circles about the corners and with the edges moved outwards.
 double rounded_chord(const std::vector<Point>& corners, double radius, double offset, bool upright) {
   const std::size_t count = corners.size();
   double first = std::numeric_limits<double>::infinity(), last = -first;
@@ -112,8 +112,7 @@ double RoundedPolygon::smallest_extent() const {
 }
 
 double RoundedPolygon::level_chord(double offset) const {
-  return radius > 0.0 ? rounded_chord(core->corners(), radius, offset, false)
-                      : core->chord({0.0, offset}, {1.0, 0.0});
+  return radius > 0.0 ? rounded_chord(core->corners(), radius, offset, false) : core->chord({0.0, offset}, {1.0, 0.0});
 }
 
 double RoundedPolygon::upright_chord(double offset) const {

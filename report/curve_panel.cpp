@@ -154,13 +154,12 @@ void annotate_target(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   canvas.text(before ? window - width - 12.0 : chart.box().right() - width - 10.0, y - 9.0, text, style);
 }
 
-/// Above the end of each line, or left out where the line lies beyond the panel.
+/// Above the beginning of each line, or left out where the line lies beyond the panel.
 void annotate_caps(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
   for (const results::StressCap& cap : marks.caps) {
     if (cap.stress * mega > chart.y_axis().high) continue;
-    const double end = std::min(chart.px(cap.until * percent), chart.box().right());
-    canvas.text(end - 6.0, chart.py(cap.stress * mega) - 7.0, cap.text,
-                {.size = 15.0, .colour = palette::vermilion, .align = Align::right, .halo = true});
+    canvas.text(chart.box().x + 8.0, chart.py(cap.stress * mega) - 7.0, cap.text,
+                {.size = 15.0, .colour = palette::vermilion, .halo = true});
   }
 }
 

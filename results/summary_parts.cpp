@@ -35,7 +35,8 @@ std::string wall_pair_text(const json& object) {
 
 /// Whether nothing was asked where a measure is missing: there is no wall, no cap, no target.
 bool only_where_asked(std::string_view key) {
-  return key.starts_with("thinnest_wall") || key == "stroke_at_cap" || key == "stress_until" || key == "target_distance";
+  return key.starts_with("thinnest_wall") || key == "stroke_at_cap" || key == "stress_until" ||
+         key == "target_distance";
 }
 
 /// A largest efficiency at the end of the run is none yet: it still grows there.

@@ -105,6 +105,7 @@ std::string elastic_text(const json& object) {
 std::string key_value_text(const std::string& key, const json& value, const KeyDimension& key_dimension) {
   if (value.is_number_integer()) return value.dump();
   if (value.is_number()) return io::quantity(value.get<double>(), key_dimension(key));
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   return value.is_string() ? value.get<std::string>() : std::string("none");
 }
 

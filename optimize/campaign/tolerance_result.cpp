@@ -23,7 +23,7 @@ std::vector<const Evaluation*> blocks_of(const SweepRun& run, const SweepCase& o
   return blocks;
 }
 
-constexpr double rounding = 1e-12;
+constexpr double last_digits = 1e-12;
 
 /// Of a wish, block by block against the undisturbed block of the same seeds.
 results::Statistic change_of(const SweepRun& run, const SweepCase& one, const results::Wish& wish) {
@@ -35,7 +35,7 @@ results::Statistic change_of(const SweepRun& run, const SweepCase& one, const re
     const double with = results::wished_value(*wish.measure, *block);
     const double without = results::wished_value(*wish.measure, *undisturbed);
     // Another grade leaves ratios of stresses as they are but for the last digits.
-    const bool same = std::abs(with - without) <= rounding * std::abs(without);
+    const bool same = std::abs(with - without) <= last_digits * std::abs(without);
     changes.push_back(same ? 0.0 : with - without);
   }
   return results::statistic_of({}, changes);

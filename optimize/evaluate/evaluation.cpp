@@ -35,8 +35,7 @@ std::shared_ptr<const geometry::Packing> periodic_packing(const Design& design, 
                                                           std::uint64_t seed) {
   const double width = design.layout.cell_width(), height = design.layout.cell_height();
   if (!design.packing.file.empty()) {
-    auto imported =
-        std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing, width, height));
+    auto imported = std::make_shared<const geometry::Packing>(geometry::import_packing(design.packing, width, height));
     if (options.packing_file.empty()) return imported;
     return std::make_shared<const geometry::Packing>(packing_from_file(options.packing_file, imported->key));
   }

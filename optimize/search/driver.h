@@ -31,7 +31,7 @@ struct Finals {
   int first = 0;                                  ///< replicate that they begin with
   std::size_t fidelity = 0;                       ///< index in Study::fidelities
   int pairs = 0;                                  ///< both simulations gave a plateau
-  std::vector<double> best_scores, start_scores;  ///< of single simulations (no spread term), one a pair
+  std::vector<double> best_scores, start_scores;  ///< of single simulations, without what wishes cost, one a pair
   double gain = 0.0;                              ///< mean of start score - best score
   double gain_error = 0.0;                        ///< its standard error; 0 with fewer than two pairs
   double gain_interval = 0.0;                     ///< half width of its 95 % interval (Student's t)

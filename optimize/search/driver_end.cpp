@@ -168,8 +168,12 @@ bool Driver::View::compare_with_start(int first) {
   if (best.empty() || (has_start && begin.empty())) return false;
   finals.best = score_of(study.target, best);
   finals.start = score_of(study.target, begin);
-  // Scores of single simulations: the spread term needs more than one.
-  const auto single = [&](const Evaluation* one) { return score_of(study.target, {&one, 1}).value; };
+  // Of single simulations, without the steps of wishes: a block that just keeps one and a block that just does not are
+  // much the same.
+  const auto single = [&](const Evaluation* one) {
+    const Score score = score_of(study.target, {&one, 1});
+    return score.value - score.of_wishes;
+  };
   for (std::size_t k = 0; k < begin.size(); ++k) {
     if (!usable(*best[k]) || !usable(*begin[k])) continue;
     finals.best_scores.push_back(single(best[k]));

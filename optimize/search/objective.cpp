@@ -51,7 +51,8 @@ double term_of(const Measure& measure, double x, double level, const Target& tar
 double cost_of(const results::Wish& wish, double x, const Target& target) {
   if (std::isnan(x)) return 2.0 * worst_term(target);
   if (x < wish.low) return worst_term(target) + square(std::log(std::max(x / wish.low, target.floor)));
-  if (x > wish.high) return worst_term(target) + (wish.high > 0.0 ? square(std::log(x / wish.high)) : worst_term(target));
+  if (x > wish.high)
+    return worst_term(target) + (wish.high > 0.0 ? square(std::log(x / wish.high)) : worst_term(target));
   return 0.0;
 }
 
@@ -103,7 +104,8 @@ bool usable(const Evaluation& evaluation) {
 
 std::string wishes_text(const Score& score) {
   if (score.wishes == 0) return {};
-  return fmt::format(", {} of {} wish{} kept", score.wishes - score.not_kept, score.wishes, score.wishes == 1 ? "" : "es");
+  return fmt::format(", {} of {} wish{} kept", score.wishes - score.not_kept, score.wishes,
+                     score.wishes == 1 ? "" : "es");
 }
 
 Score score_of(const Target& target, std::span<const Evaluation* const> replicates) {
@@ -125,7 +127,8 @@ Score score_of(const Target& target, std::span<const Evaluation* const> replicat
   score.plateau_std = or_zero(plateau.standard_deviation);
   score.undulation_mean = or_zero(statistic("undulation").mean);
   score.first_peak_mean = or_zero(statistic("first_peak_stress").mean);
-  for (const Measure* measure : results::recorded_measures(target)) score.recorded.push_back(mean_of(values_of(*measure, runs)));
+  for (const Measure* measure : results::recorded_measures(target))
+    score.recorded.push_back(mean_of(values_of(*measure, runs)));
   score.valid = score.failed == 0 && score.replicates > 0;
   if (!score.valid) return score;
   add_wishes(target, runs, score);

@@ -163,8 +163,8 @@ void write_vtk(const Scene& scene, const fs::path& base) {
     const Moment moment = scene.moment(k);
     const auto file = [&](int part, const char* name) {
       const std::string relative = fmt::format("{}/{:05d}-{}.vtp", folder.filename().string(), scene.number(k), name);
-      entries += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                             scene.axis_value(k), part, name, escaped_xml(relative));
+      entries += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", scene.axis_value(k),
+                             part, name, escaped_xml(relative));
       return base.parent_path() / relative;
     };
     write_discs(file(0, "discs"), moment);

@@ -57,9 +57,8 @@ struct Names {
 
 /// One grid at one time. `body`: topology, geometry, attributes.
 std::string grid(const char* name, TimeAxis axis, const results::FrameInfo& frame, const std::string& body) {
-  return fmt::format(
-      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}      </Grid>\n", name,
-      axis == TimeAxis::strain ? frame.strain : frame.time, body);
+  return fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}      </Grid>\n",
+                     name, axis == TimeAxis::strain ? frame.strain : frame.time, body);
 }
 
 std::string topology(const char* type, std::size_t cells, int nodes, const std::string& data) {
@@ -103,8 +102,8 @@ std::string inline_item(Number number, const char* dimensions, const std::string
 }
 
 std::string cell_grid(TimeAxis axis, const results::FrameInfo& cell) {
-  const std::string corners = fmt::format("0 0 {0} 0 {1} {2} {3} {2}", cell.h_xx,
-                                          cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
+  const std::string corners =
+      fmt::format("0 0 {0} 0 {1} {2} {3} {2}", cell.h_xx, cell.h_xx + cell.h_xy, cell.h_yy, cell.h_xy);
   return grid("cell", axis, cell,
               topology("Polyline", 1, 5, inline_item(Number::int32, "1 5", "0 1 2 3 0")) +
                   "        <Geometry GeometryType=\"XY\">" + inline_item(Number::float64, "4 2", corners) +

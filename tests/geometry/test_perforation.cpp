@@ -236,8 +236,8 @@ TEST(Perforation, GapToItsImageIsThatOfTwoHoles) {
     }
 }
 
-// A slot of length l and breadth b = 2 r, turned by t: its level chord through the centre is b / sin(t) where the flat sides
-// bound it; lying, it is l - b + 2 sqrt(r^2 - d^2) at the height d.
+// A slot of length l and breadth b = 2 r, turned by t: its level chord through the centre is b / sin(t) where the flat
+// sides bound it; lying, it is l - b + 2 sqrt(r^2 - d^2) at the height d.
 TEST(Perforation, ChordsOfASlotAreExact) {
   constexpr double half = 0.4, radius = 0.1;
   const auto slot = [&](double angle) {

@@ -203,7 +203,9 @@ std::string differences(const json& expected, const json& actual, const std::str
 
 std::string same_digits(const std::string& text) {
   std::string out;
-  const auto belongs_to_a_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
+  const auto belongs_to_a_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+  };
   for (std::size_t k = 0; k < text.size();) {
     const bool digit = std::isdigit(static_cast<unsigned char>(text[k])) ||
                        (text[k] == '-' && k + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[k + 1])));
@@ -276,7 +278,8 @@ std::vector<std::string> finished_in(const fs::path& folder) {
     const bool asked = what == "evaluation" && event.contains("request");
     if (what == "point" || (what == "evaluation" && !asked)) names.push_back(event.at("key").dump());
     if (asked)
-      names.push_back(same_digits(event.at("request").at("design").dump()) + event.at("request").at("replicate").dump());
+      names.push_back(same_digits(event.at("request").at("design").dump()) +
+                      event.at("request").at("replicate").dump());
     if (what == "replicate") names.push_back(event.at("evaluation").at("replicate").dump());
   }
   return names;

@@ -18,7 +18,8 @@ TEST_P(GoldenBits, HistoryIsTheSame) {
   const WorkFolder work;
   const Outcome outcome = work.run("evaluate " + GetParam().arguments + " -o now.h5 --threads 1 --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(same_digits(read_text(work / "now.csv")), same_digits(read_text(pinned("golden/" + GetParam().name + ".csv"))));
+  EXPECT_EQ(same_digits(read_text(work / "now.csv")),
+            same_digits(read_text(pinned("golden/" + GetParam().name + ".csv"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, GoldenBits, ::testing::ValuesIn(pinned_commands("golden.txt")), name_of);

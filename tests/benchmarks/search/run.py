@@ -7,8 +7,8 @@ Example (a study and the folders whose journals hold evaluations of its kind of 
 
     cmake --build build/release --target emulated_search
     tests/benchmarks/search/run.py --program build/release/tests/benchmarks/emulated_search \\
-        --study tests/benchmarks/search/lattices.toml --window 0.1 0.3 --until 0.3 --output out/benchmark \\
-        docs/data/fidelity-coarse-block
+        --study designs/study-slots.toml --window 0.08 0.23 --until 0.25 --output out/benchmark \\
+        docs/data/slots-map
 
 Runs that are in OUTPUT/trials.csv are not made again; the table is OUTPUT/table.csv and OUTPUT/table.txt.
 """

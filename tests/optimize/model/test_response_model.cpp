@@ -60,8 +60,8 @@ TEST_F(ResponseModelTest, CoversLeftOutDesigns) {
   EXPECT_NE(model.in_words().find("leave-one-design-out"), std::string::npos);
 }
 
-// A wish costs (ln 0.05)^2 where it is not kept, so the expected score holds that times the probability, and a little for
-// the distance from the bound.
+// A wish costs (ln 0.05)^2 where it is not kept, so the expected score holds that times the probability, and a little
+// for the distance from the bound.
 TEST_F(ResponseModelTest, WishesCostTheirProbability) {
   results::Target weighed = target;
   weighed.weight_limits = 1.0;

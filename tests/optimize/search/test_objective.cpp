@@ -67,8 +67,8 @@ TEST(Objective, UndershootAndOvershootByOneFactorCostTheSame) {
   EXPECT_NEAR(score(target, {run(5e4)}).value, score(target, {run(8e5)}).value, 1e-14);
 }
 
-// Wished 90 kPa within 20 %: a flat curve of 241 kPa is (ln 2.68)^2 = 0.97 away, one whose mean is 88 kPa but which is off
-// by a factor of e throughout (first half too low, then too high) is 1 away, and keeps the wish.
+// Wished 90 kPa within 20 %: a flat curve of 241 kPa is (ln 2.68)^2 = 0.97 away, one whose mean is 88 kPa but which is
+// off by a factor of e throughout (first half too low, then too high) is 1 away, and keeps the wish.
 TEST(Objective, ADesignThatKeepsItsWishesComesBeforeAFlatterOneThatDoesNot) {
   const Target target = target_of(9e4);
   const Evaluation flat = run(2.41e5, 0.0, 0.0, 9e4);
