@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
 
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
@@ -19,6 +18,7 @@
 #include "optimize/search/study_run.h"
 #include "report/plot.h"
 #include "results/study_record.h"
+#include "results/wish_record.h"
 
 namespace perfora::app {
 
@@ -69,13 +69,8 @@ std::vector<std::string> wishes_of_results(const fs::path& folder) {
   std::vector<std::string> texts;
   try {
     const nlohmann::json result = nlohmann::json::parse(io::read_file(folder / "result.json"));
-    const auto bound = [](const nlohmann::json& value, double open) {
-      return value.is_number() ? value.get<double>() : open;
-    };
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    for (const nlohmann::json& one : result.at("verdict").at("wishes"))
-      if (const results::Measure* measure = results::measure_called(one.at("measure").get<std::string>()))
-        texts.push_back(wish_text({measure, bound(one.at("low"), -infinite), bound(one.at("high"), infinite)}));
+    for (const results::Wish& wish : results::wishes_from_json(result.at("verdict").at("wishes")))
+      texts.push_back(wish_text(wish));
   } catch (const std::exception&) {
     return {};
   }

@@ -109,8 +109,8 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
   x.choices = group.places;
   Chart chart(canvas, box, x, measure_axis(picture, group, measure));
-  for (const results::WishedRange& wish : picture.wishes)
-    if (wish.measure == picture.measures[measure]) {
+  for (const results::Wish& wish : picture.wishes)
+    if (wish.measure->key == picture.measures[measure]) {
       const double low = std::max(scale * wish.low, chart.y_axis().low);
       const double high = std::min(scale * wish.high, chart.y_axis().high);
       if (low < high) chart.y_band(low, high, palette::green, 0.16);

@@ -11,6 +11,7 @@
 #include "io/text.h"
 #include "results/json.h"
 #include "results/record_reading.h"
+#include "results/wish_record.h"
 
 namespace perfora::results {
 namespace {
@@ -25,11 +26,6 @@ double number_in(const json& object, const char* key) {
   return found == object.end() || found->is_null() ? not_reached : found->get<double>();
 }
 
-double bound_in(const json& wish, const char* key, double open) {
-  const double bound = number_in(wish, key);
-  return std::isnan(bound) ? open : bound;
-}
-
 MapRecord record_from_json(const json& object) {
   if (object.at("schema") != map_schema) throw std::invalid_argument("another schema");
   MapRecord record;
@@ -39,11 +35,7 @@ MapRecord record_from_json(const json& object) {
   record.tried = object.at("tried").get<int>();
   record.variables = object.at("variables").get<std::vector<std::string>>();
   record.window = object.at("window").get<std::vector<double>>();
-  for (const json& one : object.at("wishes")) {
-    const Measure* measure = measure_called(one.at("measure").get<std::string>());
-    if (!measure) continue;  // of another version of the program
-    record.wishes.push_back({measure, bound_in(one, "low", -INFINITY), bound_in(one, "high", INFINITY)});
-  }
+  record.wishes = wishes_from_json(object.at("wishes"));
   for (const json& one : object.at("designs")) {
     MapDesign& design = record.designs.emplace_back();
     design.number = one.at("number").get<int>();
@@ -70,7 +62,7 @@ MapRecord record_from_json(const json& object) {
 }  // namespace
 
 json to_json(const MapRecord& record) {
-  json designs = json::array(), wishes = json::array();
+  json designs = json::array();
   for (const MapDesign& one : record.designs) {
     json results = json::object();
     for (const auto& [key, of] : one.results)
@@ -89,8 +81,6 @@ json to_json(const MapRecord& record) {
                        {"reason", one.reason},
                        {"results", results}});
   }
-  for (const Wish& wish : record.wishes)
-    wishes.push_back({{"measure", wish.measure->key}, {"low", number(wish.low)}, {"high", number(wish.high)}});
   return {{"schema", map_schema},
           {"status", "completed"},
           {"reason", ""},
@@ -100,7 +90,7 @@ json to_json(const MapRecord& record) {
           {"tried", record.tried},
           {"variables", record.variables},
           {"window", record.window},
-          {"wishes", wishes},
+          {"wishes", to_json(record.wishes)},
           {"out_of_reach", out_of_reach(record)},
           {"designs", designs}};
 }

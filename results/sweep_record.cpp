@@ -16,6 +16,7 @@
 #include "results/record_reading.h"
 #include "results/statistic.h"
 #include "results/sweep_places.h"
+#include "results/wish_record.h"
 
 namespace perfora::results {
 namespace {
@@ -51,11 +52,7 @@ SweepRecord from_object(const json& object, const fs::path& file) {
   // Older files do not say which: the two that every sweep is made for.
   record.measures = object.value("measures", std::vector<std::string>{"first_peak_stress", "plateau_stress"});
   record.plateau_window = object.value("plateau_window", std::vector<double>());
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  const auto bound = [](const json& value, double open) { return value.is_number() ? value.get<double>() : open; };
-  for (const json& wish : object.value("wishes", json::array()))
-    record.wishes.push_back(
-        {wish.at("measure").get<std::string>(), bound(wish.at("low"), -endless), bound(wish.at("high"), endless)});
+  record.wishes = wishes_from_json(object.value("wishes", json::array()));
   std::vector<std::string> columns;
   for (const json& one : object.at("cases")) {
     SweepCase& added = record.cases.emplace_back();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "results/curve.h"
+#include "results/target.h"
 
 namespace perfora::results {
 
@@ -39,12 +40,6 @@ struct SweepCase {
   std::string group, axis, place, series;
 };
 
-/// What the design wishes of a result: lowest and highest value, infinite where open.
-struct WishedRange {
-  std::string measure;
-  double low = 0.0, high = 0.0;
-};
-
 struct SweepRecord {
   std::filesystem::path folder;
   std::string name;   ///< of its folder
@@ -53,7 +48,7 @@ struct SweepRecord {
   int replicates = 0;                 ///< of each case, as requested
   std::vector<std::string> measures;  ///< that its picture shows
   std::vector<SweepCase> cases;
-  std::vector<WishedRange> wishes;
+  std::vector<Wish> wishes;           ///< of the design
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
   /// where an older program left them out.
   std::vector<double> plateau_window;

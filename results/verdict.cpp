@@ -10,6 +10,7 @@
 #include "results/assurance.h"
 #include "results/json.h"
 #include "results/statistic.h"
+#include "results/wish_record.h"
 
 namespace perfora::results {
 namespace {
@@ -216,16 +217,15 @@ Verdict verdict_on(const Target& target, std::span<const Evaluation* const> repl
 
 json to_json(const Verdict& verdict) {
   json list = json::array();
-  for (const WishVerdict& one : verdict.wishes)
-    list.push_back({{"measure", one.wish.measure->key},
-                    {"low", number(one.wish.low)},
-                    {"high", number(one.wish.high)},
-                    {"outcome", outcome_name(one.outcome)},
-                    {"count", one.count},
-                    {"missing", one.missing},
-                    {"mean", number(one.mean)},
-                    {"interval", {number(one.interval.low), number(one.interval.high)}},
-                    {"text", one.text}});
+  for (const WishVerdict& one : verdict.wishes) {
+    json& added = list.emplace_back(to_json(one.wish));
+    added.update({{"outcome", outcome_name(one.outcome)},
+                  {"count", one.count},
+                  {"missing", one.missing},
+                  {"mean", number(one.mean)},
+                  {"interval", {number(one.interval.low), number(one.interval.high)}},
+                  {"text", one.text}});
+  }
   return {{"outcome", outcome_name(verdict.outcome)},
           {"text", verdict.text},
           {"statement", verdict.statement == Statement::mean ? "mean" : "block"},

@@ -10,6 +10,7 @@
 #include "io/text.h"
 #include "results/formats.h"
 #include "results/target.h"
+#include "results/wish_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -126,9 +127,8 @@ json to_json(const SweepRun& run) {
       {"cases", cases},
       {"performance",
        {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
-  for (const results::Wish& wish : results::wishes(run.sweep().start->design().target))
-    record["wishes"].push_back(
-        {{"measure", wish.measure->key}, {"low", number(wish.low)}, {"high", number(wish.high)}});
+  if (const auto wishes = results::wishes(run.sweep().start->design().target); !wishes.empty())
+    record["wishes"] = results::to_json(wishes);
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   return record;
 }

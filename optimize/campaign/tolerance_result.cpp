@@ -10,6 +10,7 @@
 #include "optimize/campaign/sweep_result.h"
 #include "results/assurance.h"
 #include "results/verdict.h"
+#include "results/wish_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -42,14 +43,12 @@ results::Statistic change_of(const SweepRun& run, const SweepCase& one, const re
 }
 
 json wish_json(const SweepRun& run, const SweepCase& one, const results::WishVerdict& verdict) {
-  json record = {{"measure", verdict.wish.measure->key},
-                 {"low", number(verdict.wish.low)},
-                 {"high", number(verdict.wish.high)},
-                 {"outcome", results::outcome_name(verdict.outcome)},
+  json record = results::to_json(verdict.wish);
+  record.update({{"outcome", results::outcome_name(verdict.outcome)},
                  {"count", verdict.count},
                  {"mean", number(verdict.mean)},
                  {"interval", {number(verdict.interval.low), number(verdict.interval.high)}},
-                 {"text", verdict.text}};
+                 {"text", verdict.text}});
   if (one.number == 0) return record;
   const results::Statistic change = change_of(run, one, verdict.wish);
   record["change"] = {{"count", change.count},

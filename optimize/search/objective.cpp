@@ -132,8 +132,9 @@ Score score_of(const Target& target, std::span<const Evaluation* const> replicat
   score.valid = score.failed == 0 && score.replicates > 0;
   if (!score.valid) return score;
   add_wishes(target, runs, score);
-  const double value = weighted_terms(target, runs) + score.of_wishes;
+  const double terms = weighted_terms(target, runs), value = terms + score.of_wishes;
   score.value = std::isfinite(value) ? std::min(value, largest_score) : largest_score;
+  if (!(value <= largest_score)) score.of_wishes = std::isfinite(terms) ? std::max(0.0, score.value - terms) : 0.0;
   return score;
 }
 

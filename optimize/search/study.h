@@ -42,9 +42,9 @@ struct VerifyKeys {
 
 /// [study]
 struct StudyKeys {
-  std::filesystem::path design;           ///< design file the search starts from; relative to the study file
-  std::string algorithm = "GN_DIRECT_L";  ///< by NLopt's name
-  int maxeval = 0;                        ///< candidates in total, over all arms; must be given
+  std::filesystem::path design;     ///< design file the search starts from; relative to the study file
+  std::string algorithm = "model";  ///< "model", "random", "sobol" or NLopt's name of one of its own
+  int maxeval = 0;                  ///< candidates in total, over all arms; must be given
   std::string allocation =
       "equal";         ///< of maxeval to arms: "equal", "proportional", or a list of numbers, one an arm ("6, 6, 4")
   int replicates = 3;  ///< a candidate; replicate r has the same seeds for every candidate

@@ -9,6 +9,7 @@
 #include "report/html/campaign_parts.h"
 #include "results/json.h"
 #include "results/measure_table.h"
+#include "results/wish_record.h"
 
 namespace perfora::report {
 
@@ -37,17 +38,12 @@ json column_of(const std::string& name, const char* kind, double largest) {
   return column;
 }
 
-json bound(double value) {
-  return std::isfinite(value) ? json(value) : json();
-}
-
 }  // namespace
 
 Part map_part(const results::MapRecord& record) {
   Part part;
   const std::vector<const results::Measure*> measures = measures_of(record);
-  json columns = json::array(), rows = json::array(), failed = json::array(), ranges = json::array(),
-       wishes = json::array();
+  json columns = json::array(), rows = json::array(), failed = json::array(), ranges = json::array();
   for (std::size_t k = 0; k < record.variables.size(); ++k) {
     double largest = 0.0;
     for (const results::MapDesign& design : record.designs) largest = std::max(largest, std::abs(design.values[k]));
@@ -72,8 +68,6 @@ Part map_part(const results::MapRecord& record) {
     rows.push_back({{"number", design.number}, {"arm", design.arm}, {"status", status}, {"values", values}});
     if (design.failed > 0) failed.push_back({{"what", design.label}, {"reason", design.reason}});
   }
-  for (const results::Wish& wish : record.wishes)
-    wishes.push_back({{"measure", wish.measure->key}, {"low", bound(wish.low)}, {"high", bound(wish.high)}});
   part.facts = {{"title", record.title},
                 {"block", fmt::format("{} designs, {} replicate{} each{}", record.designs.size(), record.replicates,
                                       record.replicates == 1 ? "" : "s",
@@ -82,7 +76,7 @@ Part map_part(const results::MapRecord& record) {
                 {"rows", rows},
                 {"failed", failed},
                 {"ranges", ranges},
-                {"wishes", wishes},
+                {"wishes", results::to_json(record.wishes)},
                 {"out_of_reach", results::out_of_reach(record)}};
   return part;
 }

@@ -142,6 +142,18 @@ TEST(Objective, IsFiniteWhateverTheRunsGave) {
   EXPECT_TRUE(std::isfinite(score(target, {}).value));
 }
 
+// A score that ends at the largest one: its terms stay, the wishes have the rest.
+TEST(Objective, ThePartOfTheWishesIsNeverMoreThanTheRest) {
+  Target target = target_of(2e5);
+  target.weights[place_of("cap_ratio")] = 0.0;
+  target.weights[place_of("undulation")] = 100.0;
+  target.limits[place_of("undulation")] = {0.1};
+  target.weight_limits = 100.0;
+  const Score value = score(target, {run(2e5, 0.5)});  // 100 x 0.25, and more than 900 of one wish
+  EXPECT_EQ(value.value, largest_score);
+  EXPECT_NEAR(value.value - value.of_wishes, 25.0, 1e-10);
+}
+
 TEST(Objective, OrdersSimulatedBeforeFailedBeforeBrokenConstraints) {
   EXPECT_LT(largest_score, failed_score);
   EXPECT_LT(failed_score, violation_score(0.0));

@@ -96,6 +96,12 @@ TEST_F(SearcherTest, StagesMayBeOfDifferentSearchers) {
   EXPECT_EQ(plan.traces[1].visits.front().candidate->values, plan.traces[0].visits[1].candidate->values);
 }
 
+TEST_F(SearcherTest, TheModelSearchesWhereNothingIsSaid) {
+  const Study plain = study("maxeval = 3");
+  EXPECT_EQ(plain.keys.algorithm, "model");
+  EXPECT_EQ(plain.searcher->algorithms(), std::vector<std::string>{"model"});
+}
+
 TEST_F(SearcherTest, AlgorithmsAreFoundByName) {
   const ChosenSearcher direct = choose_searcher(searchers(), "nlopt_gn_direct_l");
   ASSERT_TRUE(direct.searcher);
