@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -182,10 +183,25 @@ std::string verified_text(const json& designs) {
   return text.empty() ? text : "Verified designs\n" + text;
 }
 
+/// Designs that no other beats in everything that is weighed: how many, and of how many more than the search is known.
+std::string pareto_text(const json& set) {
+  const json& designs = list_in(set, "designs");
+  if (designs.empty()) return {};
+  const auto verified = std::count_if(designs.begin(), designs.end(),
+                                      [](const json& one) { return one.is_object() && one.value("verified", false); });
+  std::string names;
+  for (const json& key : list_in(set, "objectives"))
+    if (const Measure* measure = key.is_string() ? measure_called(key.get<std::string>()) : nullptr)
+      names += (names.empty() ? "" : ", ") + std::string(measure->label);
+  return line_text("Pareto set", fmt::format("{} design{}, {} verified ({})", designs.size(),
+                                             designs.size() == 1 ? "" : "s", verified, names));
+}
+
 std::string optimize_text(const json& object, const KeyDimension& key_dimension) {
   const json& map = object_in(object, "map");
   std::string text = sentences_text("Map", list_in(map, "out_of_reach"));
   text += lines_text("Search", object, search_labels());
+  text += pareto_text(object_in(object, "pareto"));
   const json& best = object_in(object, "best");
   if (!best.empty()) text += "Best design\n";
   for (const auto& [key, value] : best.items()) text += line_text(key, key_value_text(key, value, key_dimension));

@@ -7,7 +7,7 @@
 
 #include "io/csv.h"
 #include "io/files.h"
-#include "io/text.h"
+#include "optimize/campaign/value_json.h"
 #include "results/formats.h"
 #include "results/target.h"
 #include "results/wish_record.h"
@@ -21,14 +21,8 @@ std::string field(double value) {
   return std::isfinite(value) ? fmt::format(",{:.12g}", value) : std::string(",");
 }
 
-/// Value of a key, SI.
 json value_of(const DesignFile& design, const std::string& key) {
-  const io::Value value = design.schema().find(key)->get();
-  if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return *whole;
-  if (const auto* real = std::get_if<double>(&value.data)) return number(*real);
-  if (const auto* flag = std::get_if<bool>(&value.data)) return *flag;
-  return io::value_text(value);
+  return value_json(design.schema().find(key)->get());
 }
 
 std::string case_columns(const SweepRun& run, const SweepCase& one) {

@@ -120,14 +120,4 @@ Answer TargetAnswers::at(const ResponseModel& model, const Inputs& one, const re
   return answer;
 }
 
-std::vector<bool> pareto_set(const Eigen::MatrixXd& objectives) {
-  std::vector<bool> kept(static_cast<std::size_t>(objectives.rows()), true);
-  for (Eigen::Index a = 0; a < objectives.rows(); ++a)
-    for (Eigen::Index b = 0; b < objectives.rows(); ++b) {
-      const auto off = (objectives.row(b) - objectives.row(a)).array();
-      if ((off <= 0.0).all() && (off < 0.0).any()) kept[static_cast<std::size_t>(a)] = false;
-    }
-  return kept;
-}
-
 }  // namespace perfora::model

@@ -49,8 +49,4 @@ class TargetAnswers {
   Eigen::VectorXd wished_logs_;  ///< ln(wished stress + floor) in the bins; empty: none is wished
 };
 
-/// Rows that no other is better than or as good as in every column and better in one: the Pareto set where less is
-/// better.
-std::vector<bool> pareto_set(const Eigen::MatrixXd& objectives);
-
 }  // namespace perfora::model

@@ -67,16 +67,17 @@ double mean_of(const std::vector<double>& values) {
   return results::statistic_of({}, values).mean;
 }
 
-double weighted_terms(const Target& target, const std::vector<const Evaluation*>& runs) {
-  const bool wanted = target.plateau_stress > 0.0 || target.has_curve();
+/// Sets the terms of the objectives and gives their weighted sum.
+double weigh_terms(const Target& target, const std::vector<const Evaluation*>& runs, Score& score) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < results::measures().size(); ++k) {
-    const Measure& measure = results::measures()[k];
-    if (!(target.weights[k] > 0.0) || (!wanted && std::string_view(measure.key) == "target_distance")) continue;
+  for (const Measure* measure : objectives(target)) {
+    const double weight = target.weights[static_cast<std::size_t>(measure - results::measures().data())];
+    double& mean = score.terms.emplace_back(0.0);
     for (const Evaluation* run : runs) {
       const double level = target.level(run->summary.plateau_start, run->summary.plateau_end);
-      sum += target.weights[k] * term_of(measure, results::wished_value(measure, *run), level, target) /
-             static_cast<double>(runs.size());
+      const double term = term_of(*measure, results::wished_value(*measure, *run), level, target);
+      mean += term / static_cast<double>(runs.size());
+      sum += weight * term / static_cast<double>(runs.size());
     }
   }
   return sum;
@@ -95,6 +96,17 @@ void add_wishes(const Target& target, const std::vector<const Evaluation*>& runs
 }
 
 }  // namespace
+
+std::vector<const Measure*> objectives(const Target& target) {
+  const bool wanted = target.plateau_stress > 0.0 || target.has_curve();
+  std::vector<const Measure*> weighed;
+  for (std::size_t k = 0; k < results::measures().size(); ++k) {
+    const Measure& measure = results::measures()[k];
+    if (target.weights[k] > 0.0 && (wanted || std::string_view(measure.key) != "target_distance"))
+      weighed.push_back(&measure);
+  }
+  return weighed;
+}
 
 bool usable(const Evaluation& evaluation) {
   const bool wherever = evaluation.summary.measured.starts_with("found");
@@ -132,7 +144,7 @@ Score score_of(const Target& target, std::span<const Evaluation* const> replicat
   score.valid = score.failed == 0 && score.replicates > 0;
   if (!score.valid) return score;
   add_wishes(target, runs, score);
-  const double terms = weighted_terms(target, runs), value = terms + score.of_wishes;
+  const double terms = weigh_terms(target, runs, score), value = terms + score.of_wishes;
   score.value = std::isfinite(value) ? std::min(value, largest_score) : largest_score;
   if (!(value <= largest_score)) score.of_wishes = std::isfinite(terms) ? std::max(0.0, score.value - terms) : 0.0;
   return score;

@@ -29,6 +29,7 @@ struct Score {
   double first_peak_mean = 0.0;  ///< Pa
   int wishes = 0, not_kept = 0;  ///< wishes of the target, and those that the means do not keep; 0 where invalid
   double of_wishes = 0.0;        ///< their part of the value
+  std::vector<double> terms;     ///< of objectives(target), means over the replicates, without weights; or empty
   std::vector<double> recorded;  ///< means of results::recorded_measures(target), NaN where none was reached
 };
 
@@ -39,6 +40,9 @@ struct Score {
 /// (ln floor)^2. Source: docs/user/theory.md, "Score".
 /// `replicates` holds no null pointer; empty: a failure.
 Score score_of(const results::Target& target, std::span<const Evaluation* const> replicates);
+
+/// The measures whose terms the score weighs, in the order of the table of measures.
+std::vector<const results::Measure*> objectives(const results::Target& target);
 
 /// ", 3 of 4 wishes kept"; empty where there are none.
 std::string wishes_text(const Score& score);

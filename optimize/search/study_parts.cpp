@@ -9,6 +9,8 @@
 
 #include "io/csv.h"
 #include "io/text.h"
+#include "optimize/campaign/value_json.h"
+#include "optimize/search/pareto.h"
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_result.h"
 #include "results/json.h"
@@ -21,13 +23,6 @@ using nlohmann::json;
 
 /// More blocks than this nobody runs for one wish.
 constexpr int most_blocks = 1000;
-
-json value_json(const io::Value& value) {
-  if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&value.data)) return *whole;
-  if (const auto* real = std::get_if<double>(&value.data)) return *real;
-  return nullptr;
-}
 
 /// Half the interval that `blocks` blocks of this scatter would give, over their standard deviation.
 double half_width(const results::Target& target, int blocks) {
@@ -159,6 +154,7 @@ json end_json(StudyRun& run) {
   if (enough && !results::wishes(study.target).empty())
     parts["single_blocks"] = to_json(results::assurance_of(study.target, blocks));
   if (plan.verified.size() > 1) parts["verified"] = verified_json(run);
+  if (json set = pareto_json(study, plan); plan.finished && !set.is_null()) parts["pareto"] = std::move(set);
   if (!plan.map.empty()) parts["map"] = map_json(run);
   if (plan.finished && enough) parts["what_more_would_buy"] = what_more_would_buy(run);
   if (!is_plain(study.keys)) parts["plan"] = planned(study);

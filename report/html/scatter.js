@@ -46,7 +46,8 @@ Report.parallel = (columns, rows, best) => {
 Report.axisText = (column) => column.label + (column.unit ? ` (${column.unit})` : "");
 
 /** Two columns against each other, coloured by a third; a reader chooses others. `chosen`: {x, y, colour} to begin with.
-    `data`: {columns (with `at`, their place in values), rows, wishes, best (a row or null), front (draw it)}. */
+    `data`: {columns (with `at`, their place in values), rows, wishes, best (a row or null), front (draw it), pareto (numbers
+    of rows that have a rim)}. */
 Report.scatter = (caption, chosen, data) => {
   const {el, chart} = Report, columns = data.columns;
   const wishesOf = (column) => data.wishes.filter((wish) => wish.measure === column.name || (wish.measure === "plateau_stress" && column.name === "plateau_mean"));
@@ -65,11 +66,12 @@ Report.scatter = (caption, chosen, data) => {
       high: wish.high === null ? 1e30 : wish.high * chosen[what].scale, colour: Report.colour("wish"), label: "wished"})));
     const best = data.best;
     if (best && best.values[chosen.x.at] !== null && best.values[chosen.y.at] !== null) marks.push({kind: "point", ...at(best), colour: Report.colour("ink"), label: "best"});
-    const series = [{label: "", line: false, dots: 6, points: rows.map(at), colours, info, colour: Report.series(0)}];
+    const rims = data.pareto && data.pareto.size ? rows.map((row, k) => (data.pareto.has(row.number) ? Report.colour("ink") : colours[k])) : undefined;
+    const series = [{label: "", line: false, dots: 6, points: rows.map(at), colours, rims, info, colour: Report.series(0)}];
     if (data.front) series.push(...Report.front(rows, chosen, at));
     return {x: {label: Report.axisText(chosen.x), grace: "6%"}, y: {label: Report.axisText(chosen.y), grace: "6%"}, series, marks};
   }, {tools: el("div", {class: "tools"}, select("x"), select("y"), select("colour")), tall: true,
-      note: `colour: ${chosen.colour.label}, from blue (small) to orange (large)`});
+      note: `colour: ${chosen.colour.label}, from blue (small) to orange (large)${data.pareto && data.pareto.size ? "; dark rim: Pareto set" : ""}`});
   return figure;
 };
 

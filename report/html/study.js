@@ -77,7 +77,8 @@ Report.studySections = (work) => {
   const variables = usable.filter((column) => column.kind === "variable"), results = usable.filter((column) => column.kind === "result");
   const axisText = Report.axisText;
   const wishes = work.verdict ? work.verdict.wishes : [];
-  const scatter = (caption, x, y, colour, front) => Report.scatter(caption, {x, y, colour}, {columns: usable, rows: done, wishes, best, front});
+  const members = (work.pareto && work.pareto.designs) || [];
+  const scatter = (caption, x, y, colour, front) => Report.scatter(caption, {x, y, colour}, {columns: usable, rows: done, wishes, best, front, pareto: new Set(members.map((one) => one.number))});
   if (done.length > 1 && variables.length && scoreAt >= 0) {
     const scoreColumn = usable.find((column) => column.kind === "score") || variables[0];
     const plateau = results.find((column) => column.name === "plateau_mean") || results[0] || scoreColumn;
@@ -87,6 +88,16 @@ Report.studySections = (work) => {
     const shown = variables.concat(results.filter((column) => !["plateau_std"].includes(column.name)).slice(0, 4), [scoreColumn]);
     sections.push(section("All at once", el("p", {class: "soft"}, "A line a candidate, coloured by its score from blue (small) to orange (large); thick: the best."),
       el("div", {class: "scroll"}, Report.parallel(shown, scored.map((row) => ({...row, values: shown.map((column) => row.values[column.at])})), best ? best.number : -1))));
+  }
+
+  if (members.length) {
+    const objectives = work.pareto.objectives.map((name) => usable.find((column) => column.name === name || (name === "plateau_stress" && column.name === "plateau_mean"))).filter(Boolean);
+    const value = (row, column) => ({value: row ? row.values[column.at] : null, text: Report.digits(row && row.values[column.at] !== null ? row.values[column.at] * column.scale : null)});
+    sections.push(section("Pareto set", el("p", {class: "soft"}, `Designs that keep as many wishes as any, and that no other beats in all that the score weighs: ${objectives.map((column) => column.label).join(", ")}. One that was not verified is known on the seeds of the search alone, which flatter the best.`),
+      el("div", {class: "scroll"}, Report.sortable(["no.", "design", ...objectives.map(axisText), "score", "verified"], members.map((one) => {
+        const row = done.find((candidate) => one.number !== null && candidate.number === one.number);
+        return [{value: one.number, text: one.number === null ? "map" : String(one.number)}, one.label, ...objectives.map((column) => value(row, column)), {value: one.score.score, text: Report.digits(one.score.score)}, one.verified ? "on fresh seeds" : "no"];
+      })))));
   }
 
   // Importance.

@@ -235,6 +235,7 @@ Part study_part(const results::StudyRecord& record, const fs::path& folder) {
   if (result.is_object()) {
     part.facts["model"] = result.value("model", json());
     part.facts["finals"] = result.value("finals", json());
+    part.facts["pareto"] = result.value("pareto", json());
     part.facts["status"] = result.value("status", "");
     part.facts["reason"] = result.value("reason", "");
   }

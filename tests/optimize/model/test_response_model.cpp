@@ -177,10 +177,5 @@ TEST(Coverage, IsTrustedFrom85To98Percent) {
   EXPECT_FALSE((Coverage{0, 0}).trusted());
 }
 
-TEST(ParetoSet, KeepsWhatNothingIsBetterThan) {
-  const Eigen::MatrixXd objectives{{1.0, 4.0}, {2.0, 2.0}, {3.0, 3.0}, {4.0, 1.0}, {2.0, 2.0}};
-  EXPECT_EQ(pareto_set(objectives), (std::vector<bool>{true, true, false, true, true}));
-}
-
 }  // namespace
 }  // namespace perfora::model

@@ -75,6 +75,16 @@ TEST_F(StudyRunTest, SaysHowItStands) {
   EXPECT_NE(last.find(", verdict so far: "), std::string::npos) << last;
 }
 
+// A choice that is true or false is told as such.
+TEST_F(StudyRunTest, TellsChoicesOfTheBestDesign) {
+  StudyRun run(
+      study(study_text("maxeval = 4\nreplicates = 1\nfinal_replicates = 0", "herringbone = [true]\nrows = [2]")),
+      options("choices", fake_evaluation));
+  const nlohmann::json best = finish(run).at("best");
+  EXPECT_EQ(best.at("layout.herringbone"), true);
+  EXPECT_EQ(best.at("layout.rows"), 2);
+}
+
 // A wish that the start keeps is not out of reach, whatever the candidates of the search gave.
 TEST_F(StudyRunTest, WhatTheStartReachedIsNotOutOfReach) {
   const auto outcome = [&](const std::string& name, double peak_of_start) {
