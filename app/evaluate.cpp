@@ -135,6 +135,9 @@ int evaluate_elastic(const EvaluateFlags& flags) {
 }
 
 int evaluate_replicates(const EvaluateFlags& flags) {
+  if (std::filesystem::path(flags.output).extension() == ".h5")
+    throw io::InputError({"-o", 0, ""}, flags.output + ": several replicates are written to a folder", "",
+                         "name a folder, such as " + std::filesystem::path(flags.output).replace_extension().string());
   const optimize::DesignFile design = read_design(flags);
   const std::vector<std::string> warnings = design.validate();
   check_cost(design, flags.common);

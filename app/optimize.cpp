@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 #include "app/campaign_pictures.h"
 #include "app/commands.h"
 #include "app/common.h"
@@ -78,8 +77,7 @@ std::vector<std::string> wishes_of_results(const fs::path& folder) {
 }
 
 /// A study that goes on with another wish replaces what was said of the first.
-void say_wish_is_another(const fs::path& folder, const results::Target& target) {
-  const std::vector<std::string> old = wishes_of_results(folder);
+void say_wish_is_another(const fs::path& folder, const std::vector<std::string>& old, const results::Target& target) {
   std::vector<std::string> now;
   for (const results::Wish& wish : results::wishes(target)) now.push_back(wish_text(wish));
   if (old.empty() || old == now) return;
@@ -127,8 +125,9 @@ int optimize_study(const OptimizeFlags& flags) {
   optimize::WorkOptions options = run_options(flags, study);
   ProgressLine progress("study", flags.common.quiet);
   watch_on_terminal(options, progress);
-  if (flags.resume) say_wish_is_another(options.folder, study.target);
+  const std::vector<std::string> old = flags.resume ? wishes_of_results(options.folder) : std::vector<std::string>();
   optimize::StudyRun run(std::move(study), options, flags.wall_time);
+  say_wish_is_another(options.folder, old, run.study().target);
   say_what_is_known(run);
   announce(run.study());
   run.run();
@@ -143,7 +142,7 @@ int optimize_study(const OptimizeFlags& flags) {
   print_record(optimize::to_json(run), flags.common.json);
   if (status != results::RunStatus::stopped)
     io::log_info(fmt::format("written: {} (result.json, evaluations.csv{}{})", options.folder.string(),
-                             run.plan().best ? ", best.toml, picture study.png" : "",
+                             run.plan().best ? ", best.toml, picture study.png, report.html" : "",
                              fs::exists(options.folder / "best.h5") ? ", best.h5, picture best.png" : ""));
   return say_how_work_ended(status, run.troubles(), options.folder);
 }

@@ -86,6 +86,16 @@ Discs discs_of_csv(const PackingOptions& options) {
       std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("diameter"); }) &&
       std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("radius"); });
   const std::string size = diameters ? "diameter" : "radius";
+  const auto has = [&](char axis) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return name.substr(0, name.find_first_of(" [(")) == std::string(1, axis);
+    });
+  };
+  for (const auto& [plane, name] : {std::pair{ImportPlane::xz, "xz"}, std::pair{ImportPlane::yz, "yz"}})
+    if (options.file_plane == ImportPlane::xy && has(name[0]) && has(name[1]) && !(has('x') && has('y')))
+      throw io::InputError({options.file.string(), 1, "packing.file_plane"},
+                           fmt::format("the file has columns {} and {}, not x and y", name[0], name[1]), "",
+                           fmt::format("write file_plane = \"{}\" under [packing]", name));
   const double unit = unit_of(options);
   if (with_units && unit > 0.0)
     throw io::InputError({options.file.string(), 1, "packing.file_unit"}, "the header names units already",
@@ -105,6 +115,30 @@ Discs discs_of_csv(const PackingOptions& options) {
   return scaled(std::move(table), unit);
 }
 
+/// What would make a box that is not the cell fit: another plane, another unit, the cell itself.
+std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& options, double unit, double width,
+                           double height) {
+  const auto span = [&](std::size_t axis) { return spheres.high[axis] - spheres.low[axis]; };
+  const auto fits = [&](ImportPlane plane, double of_unit) {
+    constexpr double alike = 1e-3;
+    const auto axes = axes_of(plane);
+    return std::abs(of_unit * span(axes[0]) - width) <= alike * width &&
+           std::abs(of_unit * span(axes[1]) - height) <= alike * height;
+  };
+  constexpr std::pair<ImportPlane, const char*> planes[] = {
+      {ImportPlane::xy, "xy"}, {ImportPlane::xz, "xz"}, {ImportPlane::yz, "yz"}};
+  constexpr std::pair<const char*, double> units[] = {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+  for (const auto& [plane, name] : planes)
+    if (plane != options.file_plane && fits(plane, unit)) return fmt::format("write file_plane = \"{}\"", name);
+  for (const auto& [name, of_unit] : units)
+    if (fits(options.file_plane, of_unit)) return fmt::format("write file_unit = \"{}\"", name);
+  for (const auto& [plane, plane_name] : planes)
+    for (const auto& [name, of_unit] : units)
+      if (fits(plane, of_unit))
+        return fmt::format("write file_plane = \"{}\" and file_unit = \"{}\"", plane_name, name);
+  return "give the cell the size of the box, or correct packing.file_unit or packing.file_plane";
+}
+
 void check_box(const PackingOptions& options, const LammpsSpheres& spheres, const std::array<std::size_t, 3>& axes,
                double unit, double width, double height) {
   constexpr double alike = 1e-6;
@@ -117,7 +151,7 @@ void check_box(const PackingOptions& options, const LammpsSpheres& spheres, cons
         fmt::format("the box of the file is {} along {}, the cell {}", io::quantity(box, io::Dimension::length),
                     "xyz"[axes[k]], io::quantity(cell, io::Dimension::length)),
         spheres.periodic[axes[k]] ? "a periodic box of the size of the cell" : "a box no larger than the cell",
-        "give the cell the size of the box, or correct packing.file_unit");
+        remedy_for_box(spheres, options, unit, width, height));
   }
 }
 
@@ -158,6 +192,9 @@ Discs read_discs(const PackingOptions& options, double width, double height) {
   const auto most = static_cast<std::size_t>(maximum_discs);
   if (is_lammps_dump(beginning))
     return discs_of_lammps(options, read_lammps_dump(io::read_file(options.file), name, most), width, height);
+  if (beginning.starts_with("\x89HDF"))
+    throw io::InputError({name, 0, "packing.file"}, "is an HDF5 file", "CSV, or a dump or data file of LAMMPS",
+                         "give a packing of perfora by --packing, not as packing.file");
   if (is_lammps_data(beginning))
     return discs_of_lammps(options, read_lammps_data(io::read_file(options.file), name, most), width, height);
   return discs_of_csv(options);
@@ -179,7 +216,9 @@ Packing import_packing(const PackingOptions& options, double width, double heigh
           {file.string(), discs.lines[k], "packing.file"}, "a disc of this radius does not belong in the cell",
           fmt::format("radii above 0, and a cell of at least {:g} of the largest discs along each side",
                       largest_discs_along_a_side),
-          "give x, y and radius in metres");
+          options.file_unit.empty()
+              ? "give x, y and radius in metres, or say their unit: file_unit = \"mm\" under [packing]"
+              : "correct packing.file_unit, or the cell");
     const auto wrap = [](double value, double period) {
       value -= period * std::floor(value / period);
       return value >= 0.0 && value < period ? value : 0.0;

@@ -52,8 +52,9 @@ class Lines {
     return static_cast<std::size_t>(value);
   }
 
-  [[noreturn]] void refuse(const std::string& problem, const std::string& allowed) const {
-    throw io::InputError({name_, number_, "packing.file"}, problem, allowed, "write the file again");
+  [[noreturn]] void refuse(const std::string& problem, const std::string& allowed,
+                           const std::string& remedy = "write the file again") const {
+    throw io::InputError({name_, number_, "packing.file"}, problem, allowed, remedy);
   }
 
  private:
@@ -111,7 +112,9 @@ Columns columns_of(const Lines& lines) {
     columns.size = find("diameter");
     columns.per_size = 0.5;
   }
-  if (columns.size == names.size()) lines.refuse("the dump has no sizes", "a column radius or diameter");
+  if (columns.size == names.size())
+    lines.refuse("the dump has no sizes", "a column radius or diameter",
+                 "dump them: dump 1 all custom 1000 file id x y z radius");
   return columns;
 }
 

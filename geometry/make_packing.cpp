@@ -182,8 +182,9 @@ void judge(Packing& packing, double wanted, double jamming_fraction, std::int64_
   packing.quality.iterations = iterations;
   packing.quality.reached = false;
   if (wanted > 0.0 && packing.quality.solid_fraction < wanted - 1e-9)
-    packing.quality.reason =
-        "wanted solid fraction " + percent(wanted) + ", compaction reached " + percent(packing.quality.solid_fraction);
+    packing.quality.reason = "wanted solid fraction " + percent(wanted) + ", compaction reached " +
+                             percent(packing.quality.solid_fraction) +
+                             ": lower packing.solid_fraction, or write 0 for what compaction reaches";
   else if (packing.quality.max_overlap_ratio > overlap_limit)
     packing.quality.reason = "largest overlap " + percent(packing.quality.max_overlap_ratio) +
                              " of the smaller diameter, limit " + percent(overlap_limit);

@@ -94,7 +94,9 @@ std::size_t position_of(const std::string& name, const std::vector<std::string>&
   const auto found = std::find(names.begin(), names.end(), lower(name));
   if (found == names.end())
     throw InputError(origin, fmt::format("has no column {}", name), "its columns are " + joined(names),
-                     fmt::format("name a column {}", name));
+                     names.size() == 1 && names.front().find(';') != std::string::npos
+                         ? "separate columns by commas, and write decimal points"
+                         : fmt::format("name a column {}", name));
   if (std::find(found + 1, names.end(), *found) != names.end())
     throw InputError(origin, fmt::format("names the column {} twice", name), "", "remove one of them");
   return static_cast<std::size_t>(found - names.begin());

@@ -122,7 +122,15 @@ std::string describe_journal(const std::filesystem::path& path) {
 
 std::string kind_of_entries(const std::vector<io::Entry>& entries) {
   static const std::pair<const char*, const char*> sections[] = {
-      {"study.", "study"}, {"sweep.", "sweep"}, {"calibrate.", "calibration"}, {"tolerance.", "tolerance"}};
+      {"study.", "study"},
+      {"sweep.", "sweep"},
+      {"calibrate.", "calibration"},
+      {"tolerance.", "tolerance"},
+      // Where the first section is misspelt, what only such files have.
+      {"variables.", "study"},
+      {"arms.", "study"},
+      {"each.", "sweep"},
+      {"grid.", "sweep"}};
   for (const auto& [section, kind] : sections)
     for (const io::Entry& entry : entries)
       if (entry.key.starts_with(section)) return kind;

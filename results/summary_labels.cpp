@@ -49,9 +49,9 @@ constexpr Label solution[] = {
 };
 
 constexpr Label search[] = {
-    {"score", "score", none},
+    {"score", "score (smaller is better)", none},
     {"target", "target", stress},
-    {"evaluations", "evaluations", count},
+    {"evaluations", "evaluations in all", count},
     {"stop_reason", "stopped because", none},
 };
 

@@ -118,11 +118,14 @@ std::string finals_text(const json& finals) {
   for (const char* whose : {"best", "start"}) {
     const json& score = object_in(finals, whose);
     const double mean = number_in(score, "mean"), deviation = number_in(score, "standard_deviation");
+    const double broken = number_in(score, "wishes_not_kept");
     text += line_text(
         std::string("plateau of the ") + whose,
         io::quantity(mean, Dimension::stress) +
             (std::isfinite(deviation) ? fmt::format(" (deviation {})", io::quantity(deviation, Dimension::stress))
-                                      : std::string()));
+                                      : std::string()) +
+            (broken > 0.0 ? fmt::format(", {} wish{} not kept", io::count(broken), broken == 1.0 ? "" : "es")
+                          : std::string()));
   }
   const double gain = number_in(finals, "gain"), interval = number_in(finals, "gain_confidence_95");
   const double error = number_in(finals, "gain_standard_error");  // all that an older program left
@@ -209,6 +212,7 @@ std::string optimize_text(const json& object, const KeyDimension& key_dimension)
   text += verified_text(list_in(object, "verified"));
   if (const std::string blocks = text_in(object_in(object, "single_blocks"), "text"); !blocks.empty())
     text += "Single blocks\n  " + blocks + "\n";
+  text += sentences_text("Remarks", list_in(object, "remarks"));
   text += sentences_text("What more would buy", list_in(object, "what_more_would_buy"));
   return text + performance_text(object);
 }

@@ -273,10 +273,11 @@ void validate(const Target& target, const MeasureOptions& place, const io::Schem
 std::vector<std::string> warnings(const Target& target) {
   std::vector<std::string> told;
   const auto look = [&](const std::string& key, double stress) {
+    constexpr double hardly_mpa = 50.0;  // of a block with holes
     if (stress > 0.0 && stress < least_stress)
-      told.push_back(fmt::format(
-          "{} is {}, far below what any block carries (plain numbers are in Pa); did you mean \"{:g} MPa\"?", key,
-          io::quantity(stress, io::Dimension::stress), stress));
+      told.push_back(
+          fmt::format("{} is {}, far below what any block carries (plain numbers are in Pa); did you mean \"{:g} {}\"?",
+                      key, io::quantity(stress, io::Dimension::stress), stress, stress > hardly_mpa ? "kPa" : "MPa"));
   };
   look("target.plateau_stress", target.plateau_stress);
   look("target.cap", target.cap);
@@ -285,6 +286,14 @@ std::vector<std::string> warnings(const Target& target) {
     if (wish.measure->dimension == io::Dimension::stress && std::string_view(wish.measure->key) != "plateau_stress" &&
         std::string_view(wish.measure->key) != "stress_until")
       look(std::string("target.limit.") + wish.measure->key, std::isfinite(wish.high) ? wish.high : wish.low);
+  for (const Wish& wish : limits(target)) {
+    constexpr double much = 3.0;  // 300 %
+    const double bound = std::isfinite(wish.high) ? wish.high : wish.low;
+    const std::string_view key = wish.measure->key;
+    if (wish.measure->dimension == io::Dimension::ratio && key != "largest_over_mean" && bound > much)
+      told.push_back(fmt::format("target.limit.{} is {} (plain numbers are parts of 1); did you mean \"{:g} %\"?", key,
+                                 io::quantity(bound, io::Dimension::ratio), bound));
+  }
   const double lowest = target.plateau_stress * (1.0 - target.tolerance);
   for (const char* cap : {"stress_until", "first_peak_stress"})
     for (const Wish& wish : wishes(target))

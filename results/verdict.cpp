@@ -93,7 +93,7 @@ WishVerdict judge(const Wish& wish, std::span<const Evaluation* const> replicate
   one.outcome = outcome_of(one, values, target.statement, target.fraction, one.interval);
   one.text = wish_text(one);
   for (const Reach& tried : reach)
-    if (tried.measure == wish.measure && one.outcome == Outcome::missed && tried.candidates > 0 &&
+    if (tried.measure == wish.measure && one.outcome == Outcome::missed && tried.candidates >= fewest_tried &&
         outside(wish, {tried.low, tried.high})) {
       one.outcome = Outcome::out_of_reach;
       one.text += fmt::format("; the {} designs tried gave {}", tried.candidates,

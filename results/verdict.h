@@ -32,6 +32,9 @@ struct WishVerdict {
   std::string text;  ///< "plateau stress 370 kPa (95 %: 310 to 430 kPa), wished 1.2 to 1.8 MPa: 69 % too low"
 };
 
+/// Fewer designs say nothing of what is out of reach.
+inline constexpr int fewest_tried = 5;
+
 /// What the candidates of a search reached of one wished measure: smallest and largest mean.
 struct Reach {
   const Measure* measure = nullptr;

@@ -24,6 +24,24 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Refuses a section of another name than those of the keys and of the tables, which the keys alone do not tell.
+void check_section(const io::Entry& entry, const TableFileForm& form, const io::Schema& schema,
+                   const std::string& source) {
+  const std::string section = section_of(entry.key);
+  std::vector<std::string> known = schema.section_names();
+  if (section == entry.key || among(known, section) || schema.name_today(entry.key) != entry.key) return;
+  known.insert(known.end(), form.tables.begin(), form.tables.end());
+  known.emplace_back(set_table);
+  std::string all;
+  for (const std::string& name : known)
+    all += fmt::format("{}[{}{}]", all.empty() ? "" : ", ", name, name == "fidelity" ? ".NAME" : "");
+  const std::string nearest = io::nearest_name(section, known);
+  throw io::InputError({source, entry.value.line, entry.key}, fmt::format("unknown section [{}]", section),
+                       "sections are " + all,
+                       nearest.empty() ? fmt::format("keys of the design stand in its own file, or in [{}]", set_table)
+                                       : fmt::format("did you mean [{}]?", nearest));
+}
+
 }  // namespace
 
 TableFile::TableFile(const std::filesystem::path& path, const TableFileForm& form, io::Schema& schema,
@@ -48,6 +66,7 @@ void TableFile::take(io::Entry entry, const std::string& source) {
   if (table != set_table && !among(form_.tables, table)) {
     if (entry.key == "title") title_ = io::title_in({entry});
     if (form_.look) form_.look(entry, source);
+    check_section(entry, form_, schema_, source);
     return io::apply_entries(schema_, {entry}, source);
   }
   std::erase_if(entry.key,

@@ -282,6 +282,17 @@ void warn_about_metres(const Design& design, std::vector<std::string>& warnings)
           fmt::format("{} is {}: plain numbers are in m; did you mean \"{:g} mm\"?", key, length_text(side), side));
 }
 
+/// Discs in the plane, brought together at random, jam at 0.82 to 0.86; the densest lattice of equal ones has 0.907.
+void warn_about_solid_fraction(const Design& design, std::vector<std::string>& warnings) {
+  constexpr double jammed = 0.87;
+  const double wanted = design.packing.solid_fraction;
+  if (design.packing.file.empty() && wanted > jammed)
+    warnings.push_back(fmt::format(
+        "packing.solid_fraction is {}: random packings of discs jam at 82 to 86 %, so none will be made; lower it, or "
+        "write 0 for what compaction reaches",
+        io::quantity(wanted, io::Dimension::ratio)));
+}
+
 void warn_about_window(const Design& design, std::vector<std::string>& warnings) {
   const double until = design.solver.loading.until;
   const results::MeasureOptions measures = results::with_window_of(design.target, design.measures);
@@ -309,6 +320,7 @@ std::vector<std::string> checked(const Design& design, const io::Schema& schema,
   solver::validate(design.solver, schema);
   results::validate(design.measures, schema);
   warn_about_metres(design, warnings);
+  warn_about_solid_fraction(design, warnings);
   results::validate(design.target, design.measures, schema);
   for (std::string& told : results::warnings(design.target)) warnings.push_back(std::move(told));
   warn_about_holes(layout, design, warnings);

@@ -200,7 +200,7 @@ std::vector<std::string> validity_warnings(const Evaluation& evaluation, const s
         : loading.control == solver::LoadingControl::constant ? "raise loading.transits, or let the rate be adaptive"
                                                               : "the block carries too little to be followed"));
   constexpr double smoothing = 0.005;  // an onset at the end of the run is none
-  if (s.densification_onset < std::min(s.plateau_end, s.final_strain - smoothing))
+  if (std::isfinite(s.plateau_stress) && s.densification_onset < std::min(s.plateau_end, s.final_strain - smoothing))
     warnings.push_back(fmt::format(
         "the plateau is measured to {} of strain, behind the onset of densification at {}: its mean holds rubble that "
         "is pressed together; end the window (target.window, measures.plateau_end) there",

@@ -37,6 +37,7 @@ struct Finals {
   double gain_interval = 0.0;                     ///< half width of its 95 % interval (Student's t)
   bool significant = false;  ///< gain > gain_interval, with every pair complete and three pairs at least
   Score best, start;         ///< over the fresh seeds, spread included
+  bool start_keeps_more() const { return best.valid && start.valid && start.not_kept < best.not_kept; }
 };
 
 /// A design of the race.

@@ -24,7 +24,7 @@ void compare(Finals& finals) {
   finals.gain_error = gain.standard_deviation / std::sqrt(static_cast<double>(finals.pairs));
   finals.gain_interval = gain.confidence_95;
   finals.significant = finals.pairs == finals.start_replicates && finals.pairs >= results::fewest_replicates &&
-                       finals.gain > finals.gain_interval;
+                       finals.gain > finals.gain_interval && !finals.start_keeps_more();
 }
 
 /// Met before not shown before the rest.
@@ -151,7 +151,14 @@ bool Driver::View::run_verification() {
   };
   const auto picked = std::min_element(plan.verified.begin(), plan.verified.end(), better);
   const bool another = picked != plan.verified.begin() && rank_of(plan.verified.front().outcome) > 0;
-  if (!another) return compare_with_start(first);
+  if (!another) {
+    if (!compare_with_start(first)) return false;
+    // What a search finds may keep fewer wishes than what it began with.
+    if (plan.start.candidate->arm < 0 || !plan.finals.start_keeps_more()) return true;
+    plan.best = plan.start.candidate;
+    plan.best_score = plan.start.detail;
+    return compare_with_start(first_confirming_replicate);
+  }
   plan.best = picked->candidate;
   plan.best_score = store.visit(*plan.best).detail;
   return compare_with_start(first_confirming_replicate);
@@ -160,6 +167,8 @@ bool Driver::View::run_verification() {
 bool Driver::View::compare_with_start(int first) {
   Finals& finals = plan.finals;
   finals.first = first;
+  finals.best_scores.clear();
+  finals.start_scores.clear();
   const Candidate& start = *plan.start.candidate;
   const auto best = evaluations(*plan.best, first, finals.replicates, finals.fidelity);
   const bool has_start = start.violation <= 0.0;

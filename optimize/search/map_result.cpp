@@ -86,10 +86,11 @@ std::string standing_of_map(const Study& study, const Plan& plan) {
 std::string best_of_map_text(const Study& study, const Plan& plan) {
   const Visit* best = best_visit(study, plan);
   if (!best) return {};
-  return fmt::format("best of the {} mapped designs: {}, plateau {}, score {:.4g} over {} seeds that chose it",
+  const int seeds = best->detail.replicates;
+  return fmt::format("best of the {} mapped designs: {}, plateau {}, score {:.4g} over {} seed{} that chose it",
                      plan.map.size(), best->candidate->label,
-                     io::quantity(best->detail.plateau_mean, io::Dimension::stress), best->score,
-                     study.keys.map.replicates);
+                     io::quantity(best->detail.plateau_mean, io::Dimension::stress), best->score, seeds,
+                     seeds == 1 ? "" : "s");
 }
 
 }  // namespace perfora::optimize

@@ -67,7 +67,8 @@ struct Reader {
     check_numbers(*start);
     study.warnings = start->validate();
     study.start = start;
-    set_fidelities(study, tables->entries(), start->design().solver.loading.until);
+    set_fidelities(study, tables->entries(), start->design().solver.loading.until,
+                   [this](const std::string& key) { return origin(key); });
   }
 
   void check_numbers(DesignFile& start) {

@@ -206,12 +206,14 @@ void warn_about_idle_variables(Study& study) {
 
 void drop_impossible(Study& study) {
   std::vector<Arm> possible;
+  std::string problem;  // of the first arm that is left out
   for (const Arm& arm : study.arms) {
     const double fraction = feasible_fraction(study, arm);
     if (fraction < 0.0) {
       const auto middle = study.values_at(std::vector<double>(study.variables.size(), 0.5));
-      study.warnings.push_back(
-          fmt::format("arm {} is left out: {}", arm.name, measure_layout(study.design_at(&arm, middle)).problem));
+      const std::string reason = measure_layout(study.design_at(&arm, middle)).problem;
+      if (problem.empty()) problem = reason;
+      study.warnings.push_back(fmt::format("arm {} is left out: {}", arm.name, reason));
       continue;
     }
     if (fraction == 0.0)
@@ -221,8 +223,8 @@ void drop_impossible(Study& study) {
     possible.back().fraction = fraction;
   }
   if (possible.empty())
-    throw io::InputError({study.file.string(), 0, "arms"}, "none of the arms can be laid", "",
-                         "see the layouts of the design");
+    throw io::InputError({study.file.string(), 0, "variables"}, "no layout of the search can be laid: " + problem, "",
+                         "change the bounds, or the layout of the design");
   study.arms = std::move(possible);
 }
 
@@ -256,6 +258,7 @@ void make_variables(Study& study, const ArmEntries& entries) {
     if (key.type == io::KeyType::integer) continue;
     const auto [low, high] = bounds(study, key, entry);
     if (!(low < high)) refuse_empty_bounds(study, entry, low, high);
+    refuse_metres(study, key, entry, low, high);
     study.variables.push_back({name, low, high, key.dimension});
   }
   if (study.variables.empty())

@@ -45,7 +45,13 @@ Ladder ladder_of(Study& study, const std::vector<TableEntry>& entries) {
       continue;
     }
     const std::string key = scratch.schema().name_today(given);
-    if (!scratch.schema().find(key)) static_cast<void>(scratch.schema().at(key, entry.origin()));
+    if (!scratch.schema().find(key)) {
+      for (const io::Key& other : scratch.schema().keys())
+        if (other.name == key)
+          throw io::InputError(entry.origin(), "a fidelity names the keys of the design with their sections", "",
+                               fmt::format("write \"{}\"", other.full_name()));
+      static_cast<void>(scratch.schema().at(key, entry.origin()));
+    }
     if (const std::string reason = reason_to_keep(key); !reason.empty())
       throw io::InputError(entry.origin(), "a fidelity cannot change this key: " + reason, "", "leave it out");
     scratch.schema().set(key, entry.value, entry.origin());
@@ -56,8 +62,8 @@ Ladder ladder_of(Study& study, const std::vector<TableEntry>& entries) {
 }
 
 /// The place of a fidelity among those that the study uses; added where it is new. "": the design as it stands.
-std::size_t place_of(Study& study, const Ladder& ladder, const std::string& name, const std::string& key,
-                     double until) {
+std::size_t place_of(Study& study, const Ladder& ladder, const std::string& name, const std::string& key, double until,
+                     const OriginOf& origin) {
   for (std::size_t k = 0; k < study.fidelities.size(); ++k)
     if (study.fidelities[k].name == name) return k;
   Fidelity fidelity{name, {}, until};
@@ -67,9 +73,12 @@ std::size_t place_of(Study& study, const Ladder& ladder, const std::string& name
     if (found == ladder.end()) {
       std::vector<std::string> names;
       for (const auto& [known, step] : ladder) names.push_back(known);
-      throw io::InputError({study.file.string(), 0, key}, fmt::format("there is no fidelity \"{}\"", name),
-                           names.empty() ? "a name of a [fidelity.NAME]" : fmt::format("{}", fmt::join(names, ", ")),
-                           fmt::format("add [fidelity.{}] with the keys that it changes", name));
+      const std::string nearest = io::nearest_name(name, names);
+      throw io::InputError(
+          origin(key), fmt::format("there is no fidelity \"{}\"", name),
+          names.empty() ? "no [fidelity.NAME] is given" : fmt::format("fidelities are {}", fmt::join(names, ", ")),
+          nearest.empty() ? fmt::format("add [fidelity.{}] with the keys that it changes", name)
+                          : fmt::format("did you mean \"{}\"?", nearest));
     }
     fidelity.changes = found->second.changes;
     cost = found->second.cost;
@@ -82,13 +91,13 @@ std::size_t place_of(Study& study, const Ladder& ladder, const std::string& name
 
 }  // namespace
 
-void set_fidelities(Study& study, const std::vector<TableEntry>& entries, double until) {
+void set_fidelities(Study& study, const std::vector<TableEntry>& entries, double until, const OriginOf& origin) {
   const Ladder ladder = ladder_of(study, entries);
   const StudyKeys& keys = study.keys;
-  static_cast<void>(place_of(study, ladder, keys.fidelity, "study.fidelity", until));
+  static_cast<void>(place_of(study, ladder, keys.fidelity, "study.fidelity", until, origin));
   if (!keys.map.fidelity.empty())
-    study.map_fidelity = place_of(study, ladder, keys.map.fidelity, "map.fidelity", until);
-  study.verify_fidelity = place_of(study, ladder, keys.verify.fidelity, "verify.fidelity", until);
+    study.map_fidelity = place_of(study, ladder, keys.map.fidelity, "map.fidelity", until, origin);
+  study.verify_fidelity = place_of(study, ladder, keys.verify.fidelity, "verify.fidelity", until, origin);
 }
 
 }  // namespace perfora::optimize

@@ -39,6 +39,11 @@ bool can_vary(const std::string& table, const io::Key& key) {
     allowed.push_back(other.full_name());
     if (other.section == "layout") of_layout.push_back(other.full_name());
   }
+  const std::string bare = entry.key.substr(0, entry.key.find('['));
+  for (const io::Key& other : study.start->schema().keys())
+    if (!key && other.name == bare && can_vary(table, other))
+      throw io::InputError(origin, "the section of the key is missing (that of [layout] alone may be left out)", "",
+                           fmt::format("write \"{}\"", other.full_name()));
   const std::string nearest = io::nearest_name(name, allowed);
   throw io::InputError(origin, key ? "a study cannot vary this key" : "there is no such key",
                        fmt::format("numbers of the design, such as {}", fmt::join(of_layout, ", ")),
@@ -94,6 +99,17 @@ std::pair<double, double> bounds(const Study& study, const io::Key& key, const i
       throw io::InputError(origin, fmt::format("the bound {:g} is out of range", bound[k]), key.range.text(), "");
   }
   return {bound[0], bound[1]};
+}
+
+void refuse_metres(const Study& study, const io::Key& key, const io::Entry& entry, double low, double high) {
+  const geometry::LayoutOptions& layout = study.start->design().layout;
+  constexpr double implausible = 0.5;  // m: what is meant in mm
+  const bool of_pattern = key.section == "layout" || key.section == "packing";
+  if (key.dimension != io::Dimension::length || !of_pattern) return;
+  if (low < std::max({implausible, layout.width, layout.height})) return;
+  throw io::InputError(origin_in(study, "variables", entry),
+                       fmt::format("{:g} to {:g} m are larger than the cell; plain numbers are in m", low, high), "",
+                       fmt::format("did you mean [\"{:g} mm\", \"{:g} mm\"]?", low, high));
 }
 
 [[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high) {

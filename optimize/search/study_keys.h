@@ -29,6 +29,9 @@ const io::ValueList& list_of(const Study& study, const std::string& table, const
 /// Both bounds of an entry of [variables] in SI, checked against the key's range. Throws io::InputError.
 std::pair<double, double> bounds(const Study& study, const io::Key& key, const io::Entry& entry);
 
+/// Throws InputError for lengths of a pattern that are larger than the cell: plain numbers are in metres.
+void refuse_metres(const Study& study, const io::Key& key, const io::Entry& entry, double low, double high);
+
 [[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high);
 
 }  // namespace perfora::optimize

@@ -40,6 +40,17 @@ int blocks_needed(const results::Target& target, const results::Wish& wish, cons
   return 0;
 }
 
+/// Plateau of a design on the seeds of the search over that of its verification.
+double bias_of_fidelity(const Score& searched, const Score& verified) {
+  return searched.valid && verified.valid && verified.plateau_mean > 0.0 ? searched.plateau_mean / verified.plateau_mean
+                                                                         : std::nan("");
+}
+
+bool is_biased(double ratio) {
+  constexpr double much = 1.2;  // beyond what a few blocks scatter by
+  return ratio > much || ratio < 1.0 / much;
+}
+
 /// The designs of the race, best first.
 json race_json(const StudyRun& run) {
   json designs = json::array();
@@ -156,6 +167,8 @@ json end_json(StudyRun& run) {
   if (plan.verified.size() > 1) parts["verified"] = verified_json(run);
   if (json set = pareto_json(study, plan); plan.finished && !set.is_null()) parts["pareto"] = std::move(set);
   if (!plan.map.empty()) parts["map"] = map_json(run);
+  if (plan.finished)
+    if (const auto told = remarks(run); !told.empty()) parts["remarks"] = told;
   if (plan.finished && enough) parts["what_more_would_buy"] = what_more_would_buy(run);
   if (!is_plain(study.keys)) parts["plan"] = planned(study);
   return parts;
@@ -178,12 +191,47 @@ std::string candidates_csv(StudyRun& run) {
   return text;
 }
 
+std::optional<Visit> best_beside_search(const Plan& plan) {
+  if (!plan.best || plan.best == plan.start.candidate) return std::nullopt;
+  for (const Trace& trace : plan.traces)
+    for (const Visit& visit : trace.visits)
+      if (visit.candidate == plan.best) return std::nullopt;
+  return Visit{plan.best, true, plan.best_score.value, plan.best_score};
+}
+
 std::vector<const Evaluation*> fresh_blocks(StudyRun& run) {
   const Plan& plan = run.plan();
   if (!plan.best || plan.finals.replicates == 0) return {};
   auto blocks = run.known(*plan.best, plan.finals.first, plan.finals.replicates, plan.finals.fidelity);
   if (static_cast<int>(blocks.size()) < plan.finals.replicates) blocks.clear();
   return blocks;
+}
+
+std::vector<std::string> remarks(StudyRun& run) {
+  std::vector<std::string> sentences;
+  const Study& study = run.study();
+  const Plan& plan = run.plan();
+  const Finals& finals = plan.finals;
+  if (finals.best.replicates == 0) return sentences;
+  if (plan.best == plan.start.candidate)
+    sentences.emplace_back(
+        "the start itself is recommended: on fresh seeds it keeps more of the wishes than what was found");
+  else if (finals.start_keeps_more())
+    sentences.push_back(fmt::format("the start keeps {} of {} wishes on fresh seeds, the recommended design {}",
+                                    finals.start.wishes - finals.start.not_kept, finals.start.wishes,
+                                    finals.best.wishes - finals.best.not_kept));
+  const double bias = bias_of_fidelity(plan.best_score, finals.best);
+  if (study.verify_fidelity != 0 && is_biased(bias)) {
+    const double at_start = bias_of_fidelity(plan.start.detail, finals.start);
+    const std::string of_start = std::isfinite(at_start) && plan.best != plan.start.candidate
+                                     ? fmt::format(" ({:.2g} times of the start)", at_start)
+                                     : "";
+    sentences.push_back(fmt::format(
+        "the fidelity of the search{} gives {:.2g} times the verified plateau of the recommended design{}: it "
+        "searched for another stress than is wished; search at a finer one",
+        study.fidelities.front().name.empty() ? "" : ", " + study.fidelities.front().name + ",", bias, of_start));
+  }
+  return sentences;
 }
 
 std::vector<std::string> what_more_would_buy(StudyRun& run) {
@@ -193,6 +241,8 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
   if (!verdict) return sentences;
   const auto blocks = fresh_blocks(run);
   const double each = run_seconds(study, study.verify_fidelity);
+  const bool biased =
+      study.verify_fidelity != 0 && is_biased(bias_of_fidelity(run.plan().best_score, run.plan().finals.best));
   // More blocks help only where every mean keeps its wish.
   const bool means_keep = std::all_of(verdict->wishes.begin(), verdict->wishes.end(), [](const auto& one) {
     return one.mean >= one.wish.low && one.mean <= one.wish.high;
@@ -209,8 +259,8 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
     const int needed = blocks_needed(study.target, one.wish, of);
     const int further = needed - static_cast<int>(blocks.size());
     if (!(of.mean > one.wish.low && of.mean < one.wish.high))
-      sentences.push_back(
-          fmt::format("{}: its mean does not keep the wish; more candidates are needed, not more blocks", name));
+      sentences.push_back(fmt::format("{}: its mean does not keep the wish; {} needed, not more blocks", name,
+                                      biased ? "a finer fidelity of the search is" : "more candidates are"));
     else if (needed == 0)
       sentences.push_back(fmt::format("{}: with this scatter not even {} blocks would show that it keeps the wish",
                                       name, io::count(most_blocks)));
@@ -220,9 +270,10 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
                       "keeps the wish, if mean and scatter stay as they are",
                       name, further, needed, io::duration(each * further)));
   }
-  const bool missed =
-      verdict->outcome == results::Outcome::missed || verdict->outcome == results::Outcome::out_of_reach;
-  if (missed)
+  if (verdict->outcome == results::Outcome::out_of_reach)
+    sentences.emplace_back(
+        "other bounds, other variables or another family are needed: all designs tried lie on one side of the wish");
+  else if (verdict->outcome == results::Outcome::missed)
     sentences.push_back(
         fmt::format("each further candidate takes some {} of one processor; raise study.maxeval or "
                     "study.budget and go on with --resume",

@@ -8,6 +8,7 @@
 
 #include "io/text.h"
 #include "optimize/evaluate/estimate.h"
+#include "optimize/search/candidate.h"
 #include "results/campaign_folder.h"
 
 namespace perfora::optimize {
@@ -82,8 +83,12 @@ StudyPlan plan_of(const Study& study) {
   add(stage("race", 0, keys.race.finalists, race_runs(keys.race)));
   const std::int64_t ends = verified(study), start = keys.start_final_replicates();
   add(stage("verify", study.verify_fidelity, ends + 1, ends * keys.final_replicates + start));
-  // Another design than the first of the race may come out best; it and the start are then run once more.
-  if (verified(study) > 1) add(stage("confirm", study.verify_fidelity, 2, std::int64_t{keys.final_replicates} + start));
+  // Another design than the first of the race may come out best; it and the start are then run once more. Or the start
+  // itself may, where it is a candidate.
+  if (verified(study) > 1)
+    add(stage("confirm", study.verify_fidelity, 2, std::int64_t{keys.final_replicates} + start));
+  else if (CandidateBook(study).start().arm >= 0)
+    add(stage("confirm", study.verify_fidelity, 1, keys.final_replicates));
   return plan;
 }
 

@@ -5,6 +5,7 @@
 
 #include "geometry/layout.h"
 #include "io/text.h"
+#include "optimize/search/study_parts.h"
 #include "optimize/search/study_result.h"
 #include "results/curve_file.h"
 
@@ -15,11 +16,20 @@ geometry::PerforationLayout layout_of(const DesignFile& design) {
   return geometry::place_perforations(design.design().layout, design.design().seeds.effective(0).layout);
 }
 
-/// Evaluations on the first `count` fresh seeds where they were run, otherwise of the search.
+/// Evaluations on the first `count` seeds of the verification where they were run, otherwise of the search.
 std::vector<const Evaluation*> shown(StudyRun& run, const Candidate& candidate, int count) {
-  const auto& keys = run.study().keys;
-  const auto fresh = run.known(candidate, keys.replicates, count);
-  return fresh.empty() ? run.known(candidate, 0, keys.replicates) : fresh;
+  const Finals& finals = run.plan().finals;
+  const auto fresh = run.known(candidate, finals.first, count, finals.fidelity);
+  return fresh.empty() ? run.known(candidate, 0, run.study().keys.replicates) : fresh;
+}
+
+/// ", searched at fidelity coarse"; empty where the design is searched as it stands.
+std::string fidelity_text(const Study& study) {
+  const std::string& searched = study.fidelities.front().name;
+  const std::string& verified = study.fidelities[study.verify_fidelity].name;
+  if (searched == verified) return searched.empty() ? "" : ", fidelity " + searched;
+  return fmt::format(", searched at {}, verified at {}", searched.empty() ? "the design as it stands" : searched,
+                     verified.empty() ? "the design as it stands" : verified);
 }
 
 std::vector<results::Curve> curves(const std::vector<const Evaluation*>& evaluations) {
@@ -30,21 +40,24 @@ std::vector<results::Curve> curves(const std::vector<const Evaluation*>& evaluat
 }
 
 void add_points(results::StudyRecord& record, const StudyRun& run) {
+  const auto add = [&](const Visit& visit, const std::string& arm) {
+    results::StudyPoint point;
+    point.number = static_cast<int>(record.points.size()) + 1;
+    point.arm = arm;
+    point.values = visit.candidate->values;
+    point.feasible = visit.candidate->violation <= 0.0;
+    if (visit.detail.valid) point.score = visit.score;
+    if (visit.candidate == run.plan().best && record.best_number == 0) record.best_number = point.number;
+    record.points.push_back(std::move(point));
+  };
+  const auto name = [&](int arm) { return run.study().arms[static_cast<std::size_t>(arm)].name; };
   for (const Trace& trace : run.plan().traces)
-    for (const Visit& visit : trace.visits) {
-      if (!visit.answered) continue;
-      results::StudyPoint point;
-      point.number = static_cast<int>(record.points.size()) + 1;
-      point.arm = run.study().arms[static_cast<std::size_t>(trace.arm)].name + (trace.refine ? " (refine)" : "");
-      point.values = visit.candidate->values;
-      point.feasible = visit.candidate->violation <= 0.0;
-      if (visit.detail.valid) point.score = visit.score;
-      if (visit.candidate == run.plan().best && record.best_number == 0) record.best_number = point.number;
-      record.points.push_back(std::move(point));
-    }
+    for (const Visit& visit : trace.visits)
+      if (visit.answered) add(visit, name(trace.arm) + (trace.refine ? " (refine)" : ""));
+  if (const auto best = best_beside_search(run.plan())) add(*best, name(best->candidate->arm) + " (map)");
 }
 
-void add_facts(results::StudyRecord& record, const StudyRun& run) {
+void add_facts(results::StudyRecord& record, const StudyRun& run, const Score& best_score, const Score& start_score) {
   const Study& study = run.study();
   const Candidate& best = *run.plan().best;
   const Candidate& start = *run.plan().start.candidate;
@@ -62,8 +75,9 @@ void add_facts(results::StudyRecord& record, const StudyRun& run) {
                           io::quantity(start.layout.thinnest_wall, io::Dimension::length)});
   record.facts.push_back({"porosity", io::quantity(best.layout.porosity, io::Dimension::ratio),
                           io::quantity(start.layout.porosity, io::Dimension::ratio)});
-  const Score& start_score = run.plan().start.detail;
-  const Score& best_score = run.plan().best_score;
+  const auto seeds = [](const Score& score) { return io::count(score.replicates); };
+  record.facts.push_back({run.plan().finals.best.replicates > 0 ? "fresh seeds" : "seeds of the search",
+                          seeds(best_score), seeds(start_score)});
   record.facts.push_back(
       {"score", io::number(best_score.value), start_score.valid ? io::number(start_score.value) : ""});
   const auto kept = [](const Score& score) {
@@ -80,8 +94,8 @@ results::StudyRecord study_record(StudyRun& run) {
   results::StudyRecord record;
   record.title = study.title;
   record.subtitle =
-      fmt::format("{}, {} replicate{} a candidate, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
-                  study.keys.replicates == 1 ? "" : "s", run.answers().size(), run.reason());
+      fmt::format("{}, {} replicate{} a candidate{}, {} evaluations; {}", study.keys.algorithm, study.keys.replicates,
+                  study.keys.replicates == 1 ? "" : "s", fidelity_text(study), run.answers().size(), run.reason());
   if (study.target.plateau_stress > 0.0) {
     record.target = study.target.plateau_stress;
     record.target_tolerance = study.target.tolerance * study.target.plateau_stress;
@@ -115,7 +129,7 @@ results::StudyRecord study_record(StudyRun& run) {
   if (record.start_plateau && start_score.replicates > 1) record.start_plateau_deviation = start_score.plateau_std;
   record.best_layout = layout_of(design_of(study, *plan.best));
   record.start_layout = layout_of(*study.start);
-  add_facts(record, run);
+  add_facts(record, run, best_score, start_score);
   return record;
 }
 

@@ -49,19 +49,14 @@ std::vector<results::Reach> reach_of(const StudyRun& run) {
       reach.high = reach.candidates == 0 ? mean : std::max(reach.high, mean);
       ++reach.candidates;
     };
-    // Levels do not carry over from one fidelity to another.
-    const Study& study = run.study();
-    if (study.map_fidelity == study.verify_fidelity)
-      for (const Visit& visit : run.plan().map) add(visit.detail);
+    // Levels do not carry over from one fidelity to another: what none of them gave is out of reach.
+    for (const Visit& visit : run.plan().map) add(visit.detail);
+    for (const Trace& trace : run.plan().traces)
+      for (const Visit& visit : trace.visits) add(visit.detail);
+    for (const Verified& one : run.plan().verified) add(one.score);
     // What the start reached on fresh seeds counts for more than the few of the search.
     const Finals& finals = run.plan().finals;
-    if (finals.replicates > 0)
-      add(finals.start);
-    else if (study.verify_fidelity == 0)
-      add(run.plan().start.detail);
-    if (study.verify_fidelity == 0)
-      for (const Trace& trace : run.plan().traces)
-        for (const Visit& visit : trace.visits) add(visit.detail);
+    add(finals.replicates > 0 ? finals.start : run.plan().start.detail);
     all.push_back(reach);
   }
   return all;
@@ -264,6 +259,8 @@ std::string evaluations_csv(StudyRun& run) {
     for (std::size_t k = 0; k < trace.visits.size(); ++k)
       text += csv_line(study, trace.refine ? "refine" : "search", study.arms[static_cast<std::size_t>(trace.arm)].name,
                        k + 1, trace.visits[k]);
+  if (const auto best = best_beside_search(run.plan()))
+    text += csv_line(study, "map", study.arms[static_cast<std::size_t>(best->candidate->arm)].name, 0, *best);
   return text;
 }
 

@@ -173,8 +173,11 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
 /// Computed after every answer, not at every look at it.
 std::string StudyRun::standing_now() {
   std::string text = stage_now(plan_, study_);
+  const bool past_search = plan_.finished || text == "race" || text == "verification" || text == "confirmation";
   if (!plan_.best) return text;
-  text += fmt::format(", best so far: score {:.4g}{}", plan_.best_score.value, wishes_text(plan_.best_score));
+  // At the end the model's expectation recommends, not the smallest score that was seen.
+  text += fmt::format(", {}: score {:.4g}{}", past_search ? "recommended" : "best so far", plan_.best_score.value,
+                      wishes_text(plan_.best_score));
   if (const auto verdict = verdict_of(*this))
     text += fmt::format(", verdict so far: {}", results::outcome_name(verdict->outcome));
   text += ", " + plan_.best->label;  // last: a terminal may cut it off

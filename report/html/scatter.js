@@ -9,9 +9,16 @@ Report.ramp = (part) => {
   return `rgb(${[0, 1, 2].map((c) => Math.round(stops[low][c] + f * (stops[low + 1][c] - stops[low][c]))).join(",")})`;
 };
 
+/** A label on two lines of at most `most` letters, cut where it is longer. */
+Report.twoLines = (label, most) => {
+  const cut = (words) => (words.length > most ? words.slice(0, Math.max(1, most - 2)) + ".." : words);
+  const at = label.length > most ? label.lastIndexOf(" ", most) : -1;
+  return at > 0 ? [cut(label.slice(0, at)), cut(label.slice(at + 1))] : [cut(label)];
+};
+
 /** Parallel coordinates of candidates in SVG: an axis a column, a line a candidate, coloured by the last column. */
 Report.parallel = (columns, rows, best) => {
-  const width = 900, height = 320, top = 34, bottom = 26, left = 60, right = 60;
+  const width = 900, height = 334, top = 48, bottom = 26, left = 60, right = 60;
   const svg = Report.svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Parallel coordinates of the candidates", style: "width:100%;min-width:860px"});
   const ends = columns.map((column, k) => {
     const values = rows.map((row) => row.values[k]).filter((value) => value !== null);
@@ -36,8 +43,8 @@ Report.parallel = (columns, rows, best) => {
       label.textContent = content;
       svg.append(label);
     };
-    text(column.label.length > 24 ? column.label.slice(0, 22) + "..." : column.label, 13);
-    text(`${Report.digits(ends[k][1] * column.scale)} ${column.unit}`, 29);
+    Report.twoLines(column.label, Math.floor((width - left - right) / Math.max(1, last) / 7.5)).forEach((words, line) => text(words, 13 + 15 * line));
+    text(`${Report.digits(ends[k][1] * column.scale)} ${column.unit}`, 43);
     text(`${Report.digits(ends[k][0] * column.scale)} ${column.unit}`, height - 8);
   });
   return svg;

@@ -74,7 +74,7 @@ Report.studySections = (work) => {
 
   // Two columns against each other, coloured by a third: the map of the variables, and trade-offs between results.
   const usable = columns.map((column, k) => ({...column, at: k})).filter((column) => done.some((row) => row.values[column.at] !== null) && !["replicates", "failed", "violation"].includes(column.name));
-  const variables = usable.filter((column) => column.kind === "variable"), results = usable.filter((column) => column.kind === "result");
+  const variables = usable.filter((column) => column.kind === "variable"), results = usable.filter((column) => column.kind === "result" && column.name !== "wishes_not_kept");
   const axisText = Report.axisText;
   const wishes = work.verdict ? work.verdict.wishes : [];
   const members = (work.pareto && work.pareto.designs) || [];
@@ -82,7 +82,9 @@ Report.studySections = (work) => {
   if (done.length > 1 && variables.length && scoreAt >= 0) {
     const scoreColumn = usable.find((column) => column.kind === "score") || variables[0];
     const plateau = results.find((column) => column.name === "plateau_mean") || results[0] || scoreColumn;
-    const other = results.find((column) => column !== plateau && column.name !== "plateau_std") || scoreColumn;
+    const weighed = (work.pareto && work.pareto.objectives) || [];
+    const others = results.filter((column) => column !== plateau && column.name !== "plateau_std");
+    const other = others.find((column) => weighed.includes(column.name) && column.name !== "target_distance") || others[0] || scoreColumn;
     sections.push(section("Where the candidates lie", el("div", {class: "pair"},
       scatter("Map", variables[0], variables[1] || plateau, scoreColumn, false), scatter("Trade-off", plateau, other, scoreColumn, true))));
     const shown = variables.concat(results.filter((column) => !["plateau_std"].includes(column.name)).slice(0, 4), [scoreColumn]);

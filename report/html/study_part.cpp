@@ -48,7 +48,8 @@ Candidates read_candidates(const fs::path& file) {
     if (fields[status] == "open") continue;
     Candidates::Row row;
     row.number = fields[stage] == "start" ? 0 : ++number;
-    row.arm = fields[stage] == "start" ? "start" : fields[arm] + (fields[stage] == "refine" ? " (refine)" : "");
+    const std::string& of = fields[stage];
+    row.arm = of == "start" ? of : fields[arm] + (of == "search" ? "" : " (" + of + ")");
     row.status = fields[status];
     for (std::size_t k = first; k < status; ++k) row.values.push_back(io::number_in(fields[k]));
     for (std::size_t k = status + 1; k < fields.size(); ++k) row.results.push_back(io::number_in(fields[k]));

@@ -202,6 +202,7 @@ TEST_F(CommandLine, ReplicatesMakeAnEnsemble) {
   EXPECT_EQ(json::parse(run("show e --json").output), record);
   EXPECT_THAT(run("show e").output, HasSubstr("over the replicates"));
   EXPECT_EQ(run("evaluate d.toml --replicates 2 -o e").exit_code, 1);
+  EXPECT_THAT(run("evaluate d.toml --replicates 2 -o e.h5").error, HasSubstr("written to a folder"));
   const Outcome resumed = run("evaluate d.toml --replicates 3 -o e --json --threads 1 --resume");
   EXPECT_EQ(json::parse(resumed.output)["statistics"]["plateau_stress"]["count"], 3);
   EXPECT_THAT(resumed.error, HasSubstr("was finished"));

@@ -211,6 +211,8 @@ TEST(Verdict, OutOfReachIsSaidWhereEveryCandidateFellShort) {
   EXPECT_EQ(found.outcome, Outcome::out_of_reach);
   EXPECT_NE(found.text.find("the 12 designs tried gave 20 to 370 kPa"), std::string::npos) << found.text;
   EXPECT_EQ(verdict(wish(1.5e6), steady, true, {{plateau, 12, 2e4, 1.4e6}}).outcome, Outcome::missed);
+  // Of one design, or a few, nothing is known to be out of reach.
+  EXPECT_EQ(verdict(wish(1.5e6), steady, true, {{plateau, fewest_tried - 1, 2e4, 3.7e5}}).outcome, Outcome::missed);
 }
 
 TEST(Verdict, SaysWhatTheRateLifts) {

@@ -90,6 +90,27 @@ TEST_F(DriverEnd, VerifiesAtItsFidelityOnFreshSeeds) {
   EXPECT_EQ(plan.finals.pairs, 3);
 }
 
+// What the search found keeps its wish on the seeds that chose it alone, the start on fresh ones: the start is
+// recommended, judged on seeds of its own, and no gain is told.
+TEST_F(DriverEnd, TheStartIsRecommendedWhereItKeepsMore) {
+  const Study one = study("algorithm = \"GN_DIRECT_L\"\nmaxeval = 12\nreplicates = 1\nfinal_replicates = 4");
+  Driver driver(one);
+  Answers answers;
+  const Plan plan = search(driver, answers, [&](const Request& request) {
+    Evaluation evaluation = fake_evaluation(request);
+    const bool is_start = std::abs(request.design->layout.diameter - 0.016) < 1e-9;
+    const double level = is_start ? 1.0 : request.replicate == 0 ? 1.1 : 3.0;
+    evaluation.summary.plateau_stress = fake_target * level * (1.0 + 0.001 * request.replicate / 1e6);
+    evaluation.summary.target_distance = is_start ? 0.9 : 0.1;  // a search by the score leaves the start behind
+    return evaluation;
+  });
+  EXPECT_EQ(plan.best, plan.start.candidate);
+  EXPECT_EQ(plan.finals.first, first_confirming_replicate);
+  EXPECT_EQ(plan.finals.best.not_kept, 0);
+  EXPECT_EQ(plan.finals.gain, 0.0);
+  EXPECT_FALSE(plan.finals.significant);
+}
+
 // The first of the race misses on the fresh seeds, another one meets: it is recommended, and judged on seeds of its
 // own.
 TEST_F(DriverEnd, ADesignPickedAmongSeveralIsConfirmed) {

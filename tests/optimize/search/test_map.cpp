@@ -13,7 +13,9 @@
 #include "io/progress.h"
 #include "optimize/search/map_plan.h"
 #include "optimize/search/map_run.h"
+#include "optimize/search/study_parts.h"
 #include "optimize/search/study_plan.h"
+#include "optimize/search/study_record.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "tests/optimize/search/study_support.h"
@@ -142,8 +144,9 @@ TEST_F(MapTest, GrowsWithoutRunningADesignTwice) {
 TEST_F(MapTest, OneMapServesEveryTarget) {
   { MapRun(mapped(), options("map")).run(); }
   const std::string taken = "[map]\nfrom = \"map\"\n";
-  const Study study = read(study_text("maxeval = 2\nreplicates = 2\nfinal_replicates = 0", map_arms) + taken,
-                           {"target.plateau_stress=3e5", "target.window=[0.1, 0.3]"});
+  const Study study = read(
+      study_text("algorithm = \"GN_DIRECT_L\"\nmaxeval = 2\nreplicates = 2\nfinal_replicates = 0", map_arms) + taken,
+      {"target.plateau_stress=3e5", "target.window=[0.1, 0.3]"});
   asked = 0;
   nlohmann::json record;
   {
@@ -160,6 +163,11 @@ TEST_F(MapTest, OneMapServesEveryTarget) {
         EXPECT_NEAR(run.known(*visit.candidate, 0, 1).front()->summary.plateau_start, 0.1, 1e-12);
       }
     EXPECT_TRUE(std::filesystem::exists(folder / "study" / "map.csv"));
+    // What is recommended stands in the table and in the picture, be it of the map.
+    const bool of_map = best_beside_search(run.plan()).has_value();
+    EXPECT_EQ(evaluations_csv(run).find("\nmap,") != std::string::npos, of_map);
+    EXPECT_TRUE(of_map) << "two candidates do not beat ten mapped designs";
+    EXPECT_GT(study_record(run).best_number, 0);
   }
   // On a resume the other folder is not needed any more.
   std::filesystem::remove_all(folder / "map");

@@ -10,6 +10,7 @@
 #include "io/files.h"
 #include "io/journal.h"
 #include "io/progress.h"
+#include "optimize/search/study_record.h"
 #include "optimize/search/study_result.h"
 #include "optimize/search/study_run.h"
 #include "tests/optimize/search/study_support.h"
@@ -65,14 +66,35 @@ TEST_F(StudyRunTest, SaysHowItStands) {
   std::string last;
   watched.progress = [&](const WorkProgress& progress) {
     last = progress.standing;
-    stages.insert(last.substr(0, last.find(',')));
+    const std::string stage = last.substr(0, last.find(','));
+    stages.insert(stage);
+    if (stage == "search" && last != stage) EXPECT_NE(last.find(", best so far: "), std::string::npos) << last;
   };
   StudyRun run(study(), watched);
   run.run();
   EXPECT_TRUE(stages.contains("search"));
   EXPECT_TRUE(stages.contains("verification"));
-  EXPECT_NE(last.find(", best so far: "), std::string::npos) << last;
+  EXPECT_NE(last.find(", recommended: "), std::string::npos) << last;
   EXPECT_NE(last.find(", verdict so far: "), std::string::npos) << last;
+}
+
+// Pictures and tables show the blocks that the verdict speaks of, and a fidelity that misleads is told.
+TEST_F(StudyRunTest, ShowsTheVerificationAndTellsABiasedFidelity) {
+  const auto evaluate = [](const Request& request) {
+    Evaluation evaluation = fake_evaluation(request);
+    if (request.fidelity != "coarse") evaluation.summary.plateau_stress *= 2.0;
+    return evaluation;
+  };
+  const std::string text = study_text("fidelity = \"coarse\"\nmaxeval = 6\nreplicates = 1\nfinal_replicates = 3") +
+                           "[fidelity.coarse]\n\"loading.transits\" = 12\n";
+  StudyRun run(study(text), options("biased", evaluate));
+  const nlohmann::json record = finish(run);
+  const results::StudyRecord shown = study_record(run);
+  EXPECT_EQ(shown.best.size(), 3U) << "the three blocks of the verification";
+  EXPECT_EQ(shown.best_plateau, record.at("finals").at("best").at("mean").get<double>());
+  EXPECT_NE(shown.subtitle.find("searched at coarse, verified at the design as it stands"), std::string::npos);
+  const std::string told = record.at("remarks").dump();
+  EXPECT_NE(told.find("coarse, gives 0.5 times the verified plateau"), std::string::npos) << told;
 }
 
 // A choice that is true or false is told as such.
