@@ -110,12 +110,13 @@ std::string key_value_text(const std::string& key, const json& value, const KeyD
   return value.is_string() ? value.get<std::string>() : std::string("none");
 }
 
-/// Best and start design on seeds that the search did not use.
-std::string finals_text(const json& finals) {
+/// Best and start design on seeds that the search did not use. `same`: the start is what is recommended.
+std::string finals_text(const json& finals, bool same) {
   const double pairs = number_in(finals, "pairs");
   if (!(pairs > 0.0)) return "Best and start were not compared on fresh seeds\n";
   std::string text = fmt::format("On {} fresh seeds\n", io::count(pairs));
   for (const char* whose : {"best", "start"}) {
+    if (same && std::string_view(whose) == "best") continue;
     const json& score = object_in(finals, whose);
     const double mean = number_in(score, "mean"), deviation = number_in(score, "standard_deviation");
     const double broken = number_in(score, "wishes_not_kept");
@@ -127,6 +128,7 @@ std::string finals_text(const json& finals) {
             (broken > 0.0 ? fmt::format(", {} wish{} not kept", io::count(broken), broken == 1.0 ? "" : "es")
                           : std::string()));
   }
+  if (same) return text;
   const double gain = number_in(finals, "gain"), interval = number_in(finals, "gain_confidence_95");
   const double error = number_in(finals, "gain_standard_error");  // all that an older program left
   const auto significant = finals.find("significant");
@@ -208,7 +210,9 @@ std::string optimize_text(const json& object, const KeyDimension& key_dimension)
   const json& best = object_in(object, "best");
   if (!best.empty()) text += "Best design\n";
   for (const auto& [key, value] : best.items()) text += line_text(key, key_value_text(key, value, key_dimension));
-  if (!best.empty() && text_in(object, "status") == "completed") text += finals_text(object_in(object, "finals"));
+  if (!best.empty() && text_in(object, "status") == "completed") {
+    text += finals_text(object_in(object, "finals"), best == object_in(object, "start"));
+  }
   text += verified_text(list_in(object, "verified"));
   if (const std::string blocks = text_in(object_in(object, "single_blocks"), "text"); !blocks.empty())
     text += "Single blocks\n  " + blocks + "\n";

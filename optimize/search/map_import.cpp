@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <tuple>
@@ -59,13 +58,6 @@ const Candidate* candidate_of(const Request& request, const Study& study, Candid
       if (candidate.violation <= 0.0 && book.key(candidate, request.replicate, fidelity) == key) return &candidate;
     }
   return nullptr;
-}
-
-/// A number with six digits, other texts as they are.
-std::string shown(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' ? fmt::format("{:g}", value) : text;
 }
 
 [[noreturn]] void refuse_folder(const io::Origin& origin, const std::string& problem) {

@@ -35,10 +35,11 @@ json MapRun::identity() const {
 void MapRun::check_same(const json& head, const std::filesystem::path& journal) const {
   const Difference one = difference_in_space(study_, head);
   if (!one.key.empty())
-    throw io::InputError({journal.string(), 0, one.key},
-                         fmt::format("the map of this folder has {}, this one has {}", one.there, one.here),
-                         "only the number of designs and what is wished may change when a map goes on",
-                         "give the study as it was, or start another folder with -o");
+    throw io::InputError(
+        {journal.string(), 0, one.key},
+        fmt::format("the map of this folder has {}, this one has {}", shown(one.there), shown(one.here)),
+        "only the number of designs and what is wished may change when a map goes on",
+        "give the study as it was, or start another folder with -o");
 }
 
 results::MapRecord MapRun::record() {

@@ -266,9 +266,9 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
                                       name, io::count(most_blocks)));
     else if (further > 0 && means_keep)
       sentences.push_back(
-          fmt::format("{}: {} more blocks (study.final_replicates = {}, some {} of one processor) would show that it "
+          fmt::format("{}: {} more block{} (study.final_replicates = {}, some {} of one processor) would show that it "
                       "keeps the wish, if mean and scatter stay as they are",
-                      name, further, needed, io::duration(each * further)));
+                      name, further, further == 1 ? "" : "s", needed, io::duration(each * further)));
   }
   if (verdict->outcome == results::Outcome::out_of_reach)
     sentences.emplace_back(

@@ -85,11 +85,12 @@ json StudyRun::identity() const {
 void StudyRun::check_same(const json& head, const std::filesystem::path& journal) const {
   for (const Difference& one : differences(study_, head))
     if (!may_change(one))
-      throw io::InputError({journal.string(), 0, one.key},
-                           fmt::format("the study of this folder has {}, this one has {}", one.there, one.here),
-                           "only [target], [map], [race], maxeval, budget, refine and final_replicates may change when "
-                           "a study goes on",
-                           "give the study as it was, or start another folder with -o");
+      throw io::InputError(
+          {journal.string(), 0, one.key},
+          fmt::format("the study of this folder has {}, this one has {}", shown(one.there), shown(one.here)),
+          "only [target], [map], [race], maxeval, budget, refine and final_replicates may change when "
+          "a study goes on",
+          "give the study as it was, or start another folder with -o");
 }
 
 StudyRun::Taken StudyRun::read_map(const WorkOptions& options) {

@@ -2,7 +2,10 @@
 // map_import.cpp).
 #include "optimize/search/study_space.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -70,6 +73,24 @@ bool among_arms(const Difference& one) {
 }
 
 }  // namespace
+
+std::string shown(const std::string& value) {
+  std::string text;
+  for (std::size_t at = 0; at < value.size();) {
+    const bool begins =
+        std::isdigit(static_cast<unsigned char>(value[at])) != 0 &&
+        (at == 0 || (std::isalnum(static_cast<unsigned char>(value[at - 1])) == 0 && value[at - 1] != '_'));
+    char* end = nullptr;
+    const double number = begins ? std::strtod(value.c_str() + at, &end) : 0.0;
+    if (begins && end != value.c_str() + at) {
+      text += fmt::format("{:g}", number);
+      at = static_cast<std::size_t>(end - value.c_str());
+    } else {
+      text += value[at++];
+    }
+  }
+  return text;
+}
 
 json study_identity(const Study& study) {
   auto resolved = study.resolved();

@@ -21,6 +21,8 @@ std::string name_today(const Study& study, const std::string& key);
 struct Difference {
   std::string key, there, here;
 };
+/// One of these values for people: numbers in it with six digits (SI, as they stand in the journal).
+std::string shown(const std::string& value);
 /// Of the keys that decide what is simulated: variables, arms, the design but for what varies, wishes and window, how
 /// far runs go (the other must go as far), and the fidelity of the map. Key empty: none.
 Difference difference_in_space(const Study& study, const nlohmann::json& head);

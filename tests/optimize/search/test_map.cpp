@@ -203,7 +203,9 @@ TEST_F(MapTest, RefusesAnotherSpaceByItsFirstKey) {
   EXPECT_NE(refusal(same, {"study.until=0.5"}).find("loading.until"), std::string::npos);
   std::string wider = same;
   wider.replace(wider.find("14 mm"), 5, "13 mm");
-  EXPECT_NE(refusal(wider).find("variables.layout.diameter"), std::string::npos);
+  EXPECT_NE(refusal(wider).find("variables.layout.diameter is [0.014, 0.021] there and [0.013, 0.021] here"),
+            std::string::npos)
+      << refusal(wider);
   EXPECT_NE(refusal(same + "[fidelity.coarse]\n\"packing.mean_diameter\" = \"0.6 mm\"\n", {"study.fidelity=coarse"})
                 .find("study.fidelity"),
             std::string::npos);
