@@ -24,7 +24,7 @@ constexpr double point_radius = 5.5;
 /// Results that span more than this ratio stand on a logarithmic axis.
 constexpr double logarithmic_ratio = 8.0;
 constexpr const char* abscissa = "plateau_stress";
-constexpr std::array<const char*, 4> ordinates{"cap_ratio", "undulation", "densification_strain", "porosity"};
+constexpr std::array<const char*, 4> usual_ordinates{"cap_ratio", "undulation", "densification_strain", "porosity"};
 
 double value_of(const results::MapDesign& design, const std::string& key) {
   const auto found = design.results.find(key);
@@ -35,6 +35,19 @@ const results::Wish* wish_of(const results::MapRecord& record, std::string_view 
   for (const results::Wish& wish : record.wishes)
     if (key == wish.measure->key) return &wish;
   return nullptr;
+}
+
+/// What is wished beside the plateau, then what is usual: as many as there are panels.
+std::vector<std::string> ordinates_of(const results::MapRecord& record) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (keys.size() < usual_ordinates.size() && std::find(keys.begin(), keys.end(), key) == keys.end())
+      keys.push_back(key);
+  };
+  for (const results::Wish& wish : record.wishes)
+    if (const std::string key = wish.measure->key; key != abscissa && key != "target_distance") add(key);
+  for (const char* key : usual_ordinates) add(key);
+  return keys;
 }
 
 /// The range of the designs, and the finite bounds of the wish so that it is seen where nothing came.
@@ -78,7 +91,7 @@ Colour colour_of(const std::vector<std::string>& arms, const std::string& arm) {
   return palette::series()[place % palette::series().size()];
 }
 
-void draw_panel(Canvas& canvas, const results::MapRecord& record, const char* key, const Box& box) {
+void draw_panel(Canvas& canvas, const results::MapRecord& record, const std::string& key, const Box& box) {
   const double x_scale = measure_unit(abscissa).scale, y_scale = measure_unit(key).scale;
   Chart chart(canvas, box, axis_of(record, abscissa), axis_of(record, key));
   const auto bounds = [](const results::Wish& wish, double scale, const Axis& axis) {
@@ -134,6 +147,7 @@ void plot_map(const results::MapRecord& record, const std::filesystem::path& out
   if (const auto sentences = results::out_of_reach(record); !sentences.empty())
     canvas.text(44.0, 120.0, canvas.fit(sentences.front(), page_width - 88.0, {.bold = true}),
                 {.colour = palette::vermilion, .bold = true});
+  const std::vector<std::string> ordinates = ordinates_of(record);
   for (std::size_t k = 0; k < ordinates.size(); ++k)
     draw_panel(canvas, record, ordinates[k],
                {left + static_cast<double>(k % 2) * (panel_width + gap_x),

@@ -210,9 +210,8 @@ std::string optimize_text(const json& object, const KeyDimension& key_dimension)
   const json& best = object_in(object, "best");
   if (!best.empty()) text += "Best design\n";
   for (const auto& [key, value] : best.items()) text += line_text(key, key_value_text(key, value, key_dimension));
-  if (!best.empty() && text_in(object, "status") == "completed") {
+  if (!best.empty() && text_in(object, "status") == "completed")
     text += finals_text(object_in(object, "finals"), best == object_in(object, "start"));
-  }
   text += verified_text(list_in(object, "verified"));
   if (const std::string blocks = text_in(object_in(object, "single_blocks"), "text"); !blocks.empty())
     text += "Single blocks\n  " + blocks + "\n";
