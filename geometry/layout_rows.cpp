@@ -68,7 +68,8 @@ std::vector<double> row_centres(const LayoutOptions& options) {
   for (int row = 0; row < rows; ++row) {
     const double weight = weights[static_cast<std::size_t>(row)];
     double centre = equal ? (row + 0.5) * pitch : (below + 0.5 * weight) / sum * free_height;
-    if (options.rib_every > 0) centre += row / options.rib_every * options.rib_thickness;
+    const int ribs_below = options.rib_every > 0 ? row / options.rib_every : 0;
+    centre += ribs_below * options.rib_thickness;
     centres.push_back(centre);
     below += weight;
   }

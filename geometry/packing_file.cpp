@@ -124,10 +124,10 @@ void read_cores(const io::Hdf5Reader& file, const std::string& group, Perforatio
   if (!file.has(group + "/corners")) return;
   const std::vector<double> radius = file.doubles(group + "/radius"), first = file.doubles(group + "/first_corner"),
                             corners = file.doubles(group + "/corners");
-  const std::size_t holes = layout.perforations.size();
+  const std::size_t holes = layout.perforations.size(), pairs = corners.size() / 2;
   bool good = radius.size() == holes && first.size() == holes + 1 && corners.size() % 2 == 0;
   for (std::size_t k = 0; good && k < holes; ++k) {
-    good = first[k] >= 0.0 && first[k] <= first[k + 1] && first[k + 1] <= static_cast<double>(corners.size() / 2);
+    good = first[k] >= 0.0 && first[k] <= first[k + 1] && first[k + 1] <= static_cast<double>(pairs);
     if (!good || first[k] == first[k + 1]) continue;
     std::vector<Point> core;
     for (auto c = static_cast<std::size_t>(first[k]); c < static_cast<std::size_t>(first[k + 1]); ++c)

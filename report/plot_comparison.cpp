@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/error.h"
 #include "io/text.h"
@@ -140,7 +141,7 @@ void draw_curves(Canvas& canvas, const std::vector<Drawn>& all, const Measured& 
     for (double& value : level) value = std::max(value, 0.5 * logarithmic.low);  // clipped below the axis
     lower.polyline(one.smooth.strain, level, one.colour, 2.0);
   }
-  draw_measured(upper, measured, {percent, kilo}, -INFINITY);
+  draw_measured(upper, measured, {percent, kilo}, -std::numeric_limits<double>::infinity());
   draw_measured(lower, measured, {percent, kilo}, 0.5 * logarithmic.low);
 }
 
@@ -160,7 +161,7 @@ void draw_first_peaks(Canvas& canvas, const std::vector<Drawn>& all, const Measu
   canvas.text(box.x, box.y - 12.0, "the first peaks, magnified", {.size = 16.0, .colour = palette::soft_ink});
   chart.draw_axes();
   for (const Drawn& one : all) chart.polyline(one.strain, one.stress, one.colour, 2.0);
-  draw_measured(chart, measured, {percent, kilo}, -INFINITY);
+  draw_measured(chart, measured, {percent, kilo}, -std::numeric_limits<double>::infinity());
 }
 
 void draw_table(Canvas& canvas, const std::vector<Drawn>& all, const Measured& measured) {

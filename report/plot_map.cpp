@@ -148,10 +148,12 @@ void plot_map(const results::MapRecord& record, const std::filesystem::path& out
     canvas.text(44.0, 120.0, canvas.fit(sentences.front(), page_width - 88.0, {.bold = true}),
                 {.colour = palette::vermilion, .bold = true});
   const std::vector<std::string> ordinates = ordinates_of(record);
-  for (std::size_t k = 0; k < ordinates.size(); ++k)
+  for (std::size_t k = 0; k < ordinates.size(); ++k) {
+    const std::size_t column = k % 2, row = k / 2;
     draw_panel(canvas, record, ordinates[k],
-               {left + static_cast<double>(k % 2) * (panel_width + gap_x),
-                top + static_cast<double>(k / 2) * (panel_height + gap_y), panel_width, panel_height});
+               {left + static_cast<double>(column) * (panel_width + gap_x),
+                top + static_cast<double>(row) * (panel_height + gap_y), panel_width, panel_height});
+  }
   draw_legend(canvas, record);
   canvas.write();
 }

@@ -46,9 +46,14 @@ double bias_of_fidelity(const Score& searched, const Score& verified) {
                                                                          : std::nan("");
 }
 
-bool is_biased(double ratio) {
-  constexpr double much = 1.2;  // beyond what a few blocks scatter by
-  return ratio > much || ratio < 1.0 / much;
+/// Whether the two differ by more than a fifth and by more than twice the standard error of their difference; blocks of
+/// the search scatter as those of the verification do.
+bool is_biased(const Score& searched, const Score& verified) {
+  constexpr double much = 1.2, errors = 2.0;
+  const double ratio = bias_of_fidelity(searched, verified);
+  if (!(ratio > much || ratio < 1.0 / much)) return false;
+  const double error = verified.plateau_std * std::sqrt(1.0 / searched.replicates + 1.0 / verified.replicates);
+  return std::abs(searched.plateau_mean - verified.plateau_mean) > errors * error;
 }
 
 /// The designs of the race, best first.
@@ -215,13 +220,15 @@ std::vector<std::string> remarks(StudyRun& run) {
   if (finals.best.replicates == 0) return sentences;
   if (plan.best == plan.start.candidate)
     sentences.emplace_back(
-        "the start itself is recommended: on fresh seeds it keeps more of the wishes than what was found");
+        finals.first == first_confirming_replicate
+            ? "the start itself is recommended: on fresh seeds it keeps more of the wishes than what was found"
+            : "the start itself is recommended: nothing that was found scores better");
   else if (finals.start_keeps_more())
     sentences.push_back(fmt::format("the start keeps {} of {} wishes on fresh seeds, the recommended design {}",
                                     finals.start.wishes - finals.start.not_kept, finals.start.wishes,
                                     finals.best.wishes - finals.best.not_kept));
   const double bias = bias_of_fidelity(plan.best_score, finals.best);
-  if (study.verify_fidelity != 0 && is_biased(bias)) {
+  if (study.verify_fidelity != 0 && is_biased(plan.best_score, finals.best)) {
     const double at_start = bias_of_fidelity(plan.start.detail, finals.start);
     const std::string of_start = std::isfinite(at_start) && plan.best != plan.start.candidate
                                      ? fmt::format(" ({:.2g} times of the start)", at_start)
@@ -241,8 +248,7 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
   if (!verdict) return sentences;
   const auto blocks = fresh_blocks(run);
   const double each = run_seconds(study, study.verify_fidelity);
-  const bool biased =
-      study.verify_fidelity != 0 && is_biased(bias_of_fidelity(run.plan().best_score, run.plan().finals.best));
+  const bool biased = study.verify_fidelity != 0 && is_biased(run.plan().best_score, run.plan().finals.best);
   // More blocks help only where every mean keeps its wish.
   const bool means_keep = std::all_of(verdict->wishes.begin(), verdict->wishes.end(), [](const auto& one) {
     return one.mean >= one.wish.low && one.mean <= one.wish.high;

@@ -46,9 +46,13 @@ class StudyFolder {
 /// arm.
 inline std::string study_text(const std::string& study_keys, const std::string& arms = "",
                               const std::string& constraints = "") {
-  // One replicate a candidate unless the study says otherwise: its numbers are formulas.
-  const bool replicated = study_keys.starts_with("replicates") || study_keys.find("\nreplicates") != std::string::npos;
-  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + study_keys + (replicated ? "" : "\nreplicates = 1") +
+  // One replicate a candidate and a search that thinks for no time, unless the study says otherwise: its numbers are
+  // formulas.
+  const auto says = [&](const std::string& key) {
+    return study_keys.starts_with(key) || study_keys.find("\n" + key) != std::string::npos;
+  };
+  return "[study]\ndesign = \"design.toml\"\nuntil = 0.45\n" + study_keys +
+         (says("replicates") ? "" : "\nreplicates = 1") + (says("algorithm") ? "" : "\nalgorithm = \"GN_DIRECT_L\"") +
          "\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n\"layout.diameter\" = [\"14 mm\", \"21 "
          "mm\"]\n\"layout.jitter\" = [0, \"1 mm\"]\n" +
          (arms.empty() ? "" : "[arms]\n" + arms + "\n") +

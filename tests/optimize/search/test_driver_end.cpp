@@ -63,7 +63,7 @@ TEST_F(DriverEnd, TheRaceThrowsOutAFluke) {
     if (lucky) evaluation.summary.target_distance = 0.0;
     return evaluation;
   };
-  const std::string keys = "algorithm = \"GN_DIRECT_L\"\nmaxeval = 24\nreplicates = 1\nfinal_replicates = 0";
+  const std::string keys = "maxeval = 24\nreplicates = 1\nfinal_replicates = 0";
   Answers plain_answers, answers;
   const Study without = study(keys);
   Driver plain(without);
@@ -93,7 +93,7 @@ TEST_F(DriverEnd, VerifiesAtItsFidelityOnFreshSeeds) {
 // What the search found keeps its wish on the seeds that chose it alone, the start on fresh ones: the start is
 // recommended, judged on seeds of its own, and no gain is told.
 TEST_F(DriverEnd, TheStartIsRecommendedWhereItKeepsMore) {
-  const Study one = study("algorithm = \"GN_DIRECT_L\"\nmaxeval = 12\nreplicates = 1\nfinal_replicates = 4");
+  const Study one = study("maxeval = 12\nreplicates = 1\nfinal_replicates = 4");
   Driver driver(one);
   Answers answers;
   const Plan plan = search(driver, answers, [&](const Request& request) {
@@ -114,8 +114,8 @@ TEST_F(DriverEnd, TheStartIsRecommendedWhereItKeepsMore) {
 // The first of the race misses on the fresh seeds, another one meets: it is recommended, and judged on seeds of its
 // own.
 TEST_F(DriverEnd, ADesignPickedAmongSeveralIsConfirmed) {
-  const Study one = study("algorithm = \"GN_DIRECT_L\"\nmaxeval = 12\nreplicates = 1\nfinal_replicates = 4",
-                          "[race]\nfinalists = 4\nkeep = 4\nreplicates = 1\n");
+  const Study one =
+      study("maxeval = 12\nreplicates = 1\nfinal_replicates = 4", "[race]\nfinalists = 4\nkeep = 4\nreplicates = 1\n");
   std::set<std::string> confirming;
   Driver driver(one);
   Answers answers;

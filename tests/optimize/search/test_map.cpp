@@ -144,9 +144,8 @@ TEST_F(MapTest, GrowsWithoutRunningADesignTwice) {
 TEST_F(MapTest, OneMapServesEveryTarget) {
   { MapRun(mapped(), options("map")).run(); }
   const std::string taken = "[map]\nfrom = \"map\"\n";
-  const Study study = read(
-      study_text("algorithm = \"GN_DIRECT_L\"\nmaxeval = 2\nreplicates = 2\nfinal_replicates = 0", map_arms) + taken,
-      {"target.plateau_stress=3e5", "target.window=[0.1, 0.3]"});
+  const Study study = read(study_text("maxeval = 2\nreplicates = 2\nfinal_replicates = 0", map_arms) + taken,
+                           {"target.plateau_stress=3e5", "target.window=[0.1, 0.3]"});
   asked = 0;
   nlohmann::json record;
   {

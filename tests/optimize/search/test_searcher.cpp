@@ -97,7 +97,10 @@ TEST_F(SearcherTest, StagesMayBeOfDifferentSearchers) {
 }
 
 TEST_F(SearcherTest, TheModelSearchesWhereNothingIsSaid) {
-  const Study plain = study("maxeval = 3");
+  const Study plain =
+      read_study(folder.file("plain.toml",
+                             "[study]\ndesign = \"design.toml\"\nmaxeval = 3\n[target]\n"
+                             "plateau_stress = \"0.2 MPa\"\n[variables]\ndiameter = [\"14 mm\", \"21 mm\"]\n"));
   EXPECT_EQ(plain.keys.algorithm, "model");
   EXPECT_EQ(plain.searcher->algorithms(), std::vector<std::string>{"model"});
 }
