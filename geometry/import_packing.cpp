@@ -61,6 +61,10 @@ double unit_of(const PackingOptions& options) {
   return io::parse_quantity(io::Value{"1 " + options.file_unit}, io::Dimension::length, origin);
 }
 
+/// The planes by their names in a design.
+constexpr std::pair<ImportPlane, const char*> planes[] = {
+    {ImportPlane::xy, "xy"}, {ImportPlane::xz, "xz"}, {ImportPlane::yz, "yz"}};
+
 std::array<std::size_t, 3> axes_of(ImportPlane plane) {
   if (plane == ImportPlane::xz) return {0, 2, 1};
   if (plane == ImportPlane::yz) return {1, 2, 0};
@@ -91,7 +95,7 @@ Discs discs_of_csv(const PackingOptions& options) {
       return name.substr(0, name.find_first_of(" [(")) == std::string(1, axis);
     });
   };
-  for (const auto& [plane, name] : {std::pair{ImportPlane::xz, "xz"}, std::pair{ImportPlane::yz, "yz"}})
+  for (const auto& [plane, name] : planes)
     if (options.file_plane == ImportPlane::xy && has(name[0]) && has(name[1]) && !(has('x') && has('y')))
       throw io::InputError({options.file.string(), 1, "packing.file_plane"},
                            fmt::format("the file has columns {} and {}, not x and y", name[0], name[1]), "",
@@ -125,8 +129,6 @@ std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& o
     return std::abs(of_unit * span(axes[0]) - width) <= alike * width &&
            std::abs(of_unit * span(axes[1]) - height) <= alike * height;
   };
-  constexpr std::pair<ImportPlane, const char*> planes[] = {
-      {ImportPlane::xy, "xy"}, {ImportPlane::xz, "xz"}, {ImportPlane::yz, "yz"}};
   constexpr std::pair<const char*, double> units[] = {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
   for (const auto& [plane, name] : planes)
     if (plane != options.file_plane && fits(plane, unit)) return fmt::format("write file_plane = \"{}\"", name);

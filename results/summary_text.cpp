@@ -188,7 +188,7 @@ std::string verified_text(const json& designs) {
   return text.empty() ? text : "Verified designs\n" + text;
 }
 
-/// Designs that no other beats in everything that is weighed: how many, and of how many more than the search is known.
+/// How many designs no other beats in all that is weighed, and how many of them were verified.
 std::string pareto_text(const json& set) {
   const json& designs = list_in(set, "designs");
   if (designs.empty()) return {};

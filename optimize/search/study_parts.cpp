@@ -46,10 +46,13 @@ double bias_of_fidelity(const Score& searched, const Score& verified) {
                                                                          : std::nan("");
 }
 
-/// Whether the two differ by more than a fifth and by more than twice the standard error of their difference; blocks of
-/// the search scatter as those of the verification do.
-bool is_biased(const Score& searched, const Score& verified) {
+/// Whether a search at another fidelity than the verification gave the recommended design another plateau: by more than
+/// a fifth and by more than twice the standard error of the difference; blocks of the search scatter as those of the
+/// verification do.
+bool is_biased(const Study& study, const Plan& plan) {
+  if (study.verify_fidelity == 0) return false;
   constexpr double much = 1.2, errors = 2.0;
+  const Score &searched = plan.best_score, &verified = plan.finals.best;
   const double ratio = bias_of_fidelity(searched, verified);
   if (!(ratio > much || ratio < 1.0 / much)) return false;
   const double error = verified.plateau_std * std::sqrt(1.0 / searched.replicates + 1.0 / verified.replicates);
@@ -170,7 +173,7 @@ json end_json(StudyRun& run) {
   if (enough && !results::wishes(study.target).empty())
     parts["single_blocks"] = to_json(results::assurance_of(study.target, blocks));
   if (plan.verified.size() > 1) parts["verified"] = verified_json(run);
-  if (json set = pareto_json(study, plan); plan.finished && !set.is_null()) parts["pareto"] = std::move(set);
+  if (json set = plan.finished ? pareto_json(study, plan) : json(); !set.is_null()) parts["pareto"] = std::move(set);
   if (!plan.map.empty()) parts["map"] = map_json(run);
   if (plan.finished)
     if (const auto told = remarks(run); !told.empty()) parts["remarks"] = told;
@@ -227,8 +230,8 @@ std::vector<std::string> remarks(StudyRun& run) {
     sentences.push_back(fmt::format("the start keeps {} of {} wishes on fresh seeds, the recommended design {}",
                                     finals.start.wishes - finals.start.not_kept, finals.start.wishes,
                                     finals.best.wishes - finals.best.not_kept));
-  const double bias = bias_of_fidelity(plan.best_score, finals.best);
-  if (study.verify_fidelity != 0 && is_biased(plan.best_score, finals.best)) {
+  if (is_biased(study, plan)) {
+    const double bias = bias_of_fidelity(plan.best_score, finals.best);
     const double at_start = bias_of_fidelity(plan.start.detail, finals.start);
     const std::string of_start = std::isfinite(at_start) && plan.best != plan.start.candidate
                                      ? fmt::format(" ({:.2g} times of the start)", at_start)
@@ -248,7 +251,7 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
   if (!verdict) return sentences;
   const auto blocks = fresh_blocks(run);
   const double each = run_seconds(study, study.verify_fidelity);
-  const bool biased = study.verify_fidelity != 0 && is_biased(run.plan().best_score, run.plan().finals.best);
+  const bool biased = is_biased(study, run.plan());
   // More blocks help only where every mean keeps its wish.
   const bool means_keep = std::all_of(verdict->wishes.begin(), verdict->wishes.end(), [](const auto& one) {
     return one.mean >= one.wish.low && one.mean <= one.wish.high;

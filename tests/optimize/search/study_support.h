@@ -14,6 +14,7 @@
 #include "io/error.h"
 #include "io/schema.h"
 #include "optimize/campaign/executor.h"
+#include "optimize/search/driver.h"
 #include "optimize/search/study.h"
 
 namespace perfora::optimize {
@@ -104,6 +105,19 @@ inline Evaluation fake_with_failures(const Request& request) {
   const double diameter = request.design->layout.diameter;
   if (diameter > 0.0185 && diameter < 0.0200) return failed_evaluation("unstable step", request.replicate);
   return fake_evaluation(request);
+}
+
+/// The plan of a study that has ended, every open question answered in each round.
+inline Plan search_to_end(Driver& driver, Answers& answers, const Evaluate& evaluate) {
+  for (int round = 0; round < 2000; ++round) {
+    Plan plan = driver.plan(answers);
+    for (const Batch& batch : plan.new_batches) driver.take(batch);
+    if (plan.finished) return plan;
+    if (plan.wanted.empty() && plan.new_batches.empty()) break;
+    for (const Wanted& one : plan.wanted) answers.add(one.key, evaluate(one.request));
+  }
+  ADD_FAILURE() << "the study did not end";
+  return {};
 }
 
 inline std::string input_error(const std::function<void()>& code) {

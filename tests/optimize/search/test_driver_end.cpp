@@ -16,17 +16,6 @@ class DriverEnd : public testing::Test {
   Study study(const std::string& keys, const std::string& tables = "") {
     return read_study(folder.file("study.toml", study_text(keys) + tables));
   }
-  static Plan search(Driver& driver, Answers& answers, const Evaluate& evaluate) {
-    for (int round = 0; round < 2000; ++round) {
-      Plan plan = driver.plan(answers);
-      for (const Batch& batch : plan.new_batches) driver.take(batch);
-      if (plan.finished) return plan;
-      if (plan.wanted.empty() && plan.new_batches.empty()) break;
-      for (const Wanted& one : plan.wanted) answers.add(one.key, evaluate(one.request));
-    }
-    ADD_FAILURE() << "the study did not end";
-    return {};
-  }
 };
 
 const char* const race = "[race]\nfinalists = 8\nkeep = 3\nreplicates = 2\n";
@@ -36,7 +25,7 @@ TEST_F(DriverEnd, TheRaceHalvesOnPairedSeeds) {
   std::map<int, std::set<std::string>> raced;  // designs by replicate
   Driver driver(one);
   Answers answers;
-  const Plan plan = search(driver, answers, [&](const Request& request) {
+  const Plan plan = search_to_end(driver, answers, [&](const Request& request) {
     if (request.replicate >= first_race_replicate)
       raced[request.replicate - first_race_replicate].insert(DesignFile(*request.design).schema().to_toml());
     return fake_evaluation(request);
@@ -67,10 +56,10 @@ TEST_F(DriverEnd, TheRaceThrowsOutAFluke) {
   Answers plain_answers, answers;
   const Study without = study(keys);
   Driver plain(without);
-  EXPECT_LT(search(plain, plain_answers, evaluate).best->values[0], 0.0155);
+  EXPECT_LT(search_to_end(plain, plain_answers, evaluate).best->values[0], 0.0155);
   const Study with = study(keys, "[race]\nfinalists = 24\nkeep = 1\nreplicates = 4\n");
   Driver raced(with);
-  EXPECT_GT(search(raced, answers, evaluate).best->values[0], 0.0155);
+  EXPECT_GT(search_to_end(raced, answers, evaluate).best->values[0], 0.0155);
 }
 
 TEST_F(DriverEnd, VerifiesAtItsFidelityOnFreshSeeds) {
@@ -79,7 +68,7 @@ TEST_F(DriverEnd, VerifiesAtItsFidelityOnFreshSeeds) {
   std::set<int> fine, plain;
   Driver driver(one);
   Answers answers;
-  const Plan plan = search(driver, answers, [&](const Request& request) {
+  const Plan plan = search_to_end(driver, answers, [&](const Request& request) {
     (request.fidelity == "fine" ? fine : plain).insert(request.replicate);
     EXPECT_EQ(request.design->solver.loading.transits == 60.0, request.fidelity == "fine");
     return fake_evaluation(request);
@@ -96,7 +85,7 @@ TEST_F(DriverEnd, TheStartIsRecommendedWhereItKeepsMore) {
   const Study one = study("maxeval = 12\nreplicates = 1\nfinal_replicates = 4");
   Driver driver(one);
   Answers answers;
-  const Plan plan = search(driver, answers, [&](const Request& request) {
+  const Plan plan = search_to_end(driver, answers, [&](const Request& request) {
     Evaluation evaluation = fake_evaluation(request);
     const bool is_start = std::abs(request.design->layout.diameter - 0.016) < 1e-9;
     const double level = is_start ? 1.0 : request.replicate == 0 ? 1.1 : 3.0;
@@ -119,7 +108,7 @@ TEST_F(DriverEnd, ADesignPickedAmongSeveralIsConfirmed) {
   std::set<std::string> confirming;
   Driver driver(one);
   Answers answers;
-  const Plan plan = search(driver, answers, [&](const Request& request) {
+  const Plan plan = search_to_end(driver, answers, [&](const Request& request) {
     Evaluation evaluation = fake_evaluation(request);
     if (request.replicate >= first_confirming_replicate)
       confirming.insert(DesignFile(*request.design).schema().to_toml());
@@ -143,7 +132,7 @@ TEST_F(DriverEnd, WithoutARaceTheBestAloneIsVerified) {
   const Study one = study("maxeval = 6\nfinal_replicates = 3");
   Driver driver(one);
   Answers answers;
-  const Plan plan = search(driver, answers, fake_evaluation);
+  const Plan plan = search_to_end(driver, answers, fake_evaluation);
   ASSERT_EQ(plan.verified.size(), 1U);
   EXPECT_EQ(plan.verified.front().candidate, plan.best);
   EXPECT_TRUE(plan.finalists.empty());

@@ -21,38 +21,31 @@ class ParetoStudy : public testing::Test {
   static constexpr double first_best = 0.016, second_best = 0.019, missed_from = 0.018;
   StudyFolder folder;
 
-  Plan search(const Study& study, Driver& driver, Answers& answers) const {
-    for (int round = 0; round < 100; ++round) {
-      Plan plan = driver.plan(answers);
-      for (const Batch& batch : plan.new_batches) driver.take(batch);
-      if (plan.finished) return plan;
-      for (const Wanted& one : plan.wanted) {
-        Evaluation evaluation = fake_evaluation(one.request);
-        const double diameter = one.request.design->layout.diameter;
-        evaluation.summary.plateau_stress = fake_target * (diameter < missed_from ? 1.0 : 3.0);
-        evaluation.summary.target_distance = 100.0 * std::abs(diameter - first_best);
-        evaluation.summary.cap_ratio = std::exp(100.0 * std::abs(diameter - second_best));
-        answers.add(one.key, evaluation);
-      }
-    }
-    ADD_FAILURE() << "the study did not end: " << study.title;
-    return {};
+  Study study(const std::string& keys, const std::string& tables) const {
+    return read_study(folder.file("study.toml", study_text(keys) + tables));
+  }
+  static Evaluation evaluate(const Request& request) {
+    Evaluation evaluation = fake_evaluation(request);
+    const double diameter = request.design->layout.diameter;
+    evaluation.summary.plateau_stress = fake_target * (diameter < missed_from ? 1.0 : 3.0);
+    evaluation.summary.target_distance = 100.0 * std::abs(diameter - first_best);
+    evaluation.summary.cap_ratio = std::exp(100.0 * std::abs(diameter - second_best));
+    return evaluation;
   }
 };
 
 TEST_F(ParetoStudy, IsWhatLiesBetweenTheBestOfEachObjective) {
-  const Study study =
-      read_study(folder.file("study.toml", study_text("algorithm = \"sobol\"\nmaxeval = 60\nfinal_replicates = 3") +
-                                               "[race]\nfinalists = 4\nkeep = 2\nreplicates = 1\n"));
-  Driver driver(study);
+  const Study one = study("algorithm = \"sobol\"\nmaxeval = 60\nfinal_replicates = 3",
+                          "[race]\nfinalists = 4\nkeep = 2\nreplicates = 1\n");
+  Driver driver(one);
   Answers answers;
-  const Plan plan = search(study, driver, answers);
-  const std::vector<ParetoMember> members = pareto_set(study, plan);
+  const Plan plan = search_to_end(driver, answers, evaluate);
+  const std::vector<ParetoMember> members = pareto_set(one, plan);
   std::set<const Candidate*> in_set;
-  for (const ParetoMember& one : members) {
-    in_set.insert(one.candidate);
-    EXPECT_EQ(plan.traces[0].visits[static_cast<std::size_t>(one.number) - 1].candidate, one.candidate);
-    EXPECT_EQ(one.score.not_kept, 0);
+  for (const ParetoMember& member : members) {
+    in_set.insert(member.candidate);
+    EXPECT_EQ(plan.traces[0].visits[static_cast<std::size_t>(member.number) - 1].candidate, member.candidate);
+    EXPECT_EQ(member.score.not_kept, 0);
   }
   int between = 0;
   double nearest = 1.0;  // that anything from 16 mm on comes to 16 mm
@@ -64,29 +57,29 @@ TEST_F(ParetoStudy, IsWhatLiesBetweenTheBestOfEachObjective) {
     EXPECT_TRUE(in_set.contains(visit.candidate)) << diameter;
   }
   EXPECT_GE(between, 10);
-  for (const ParetoMember& one : members) {
-    EXPECT_LT(one.candidate->values[0], missed_from);
-    if (one.candidate->values[0] < first_best) EXPECT_LT(first_best - one.candidate->values[0], nearest);
+  for (const ParetoMember& member : members) {
+    EXPECT_LT(member.candidate->values[0], missed_from);
+    if (member.candidate->values[0] < first_best) EXPECT_LT(first_best - member.candidate->values[0], nearest);
   }
   EXPECT_TRUE(std::is_sorted(members.begin(), members.end(), [](const ParetoMember& a, const ParetoMember& b) {
     return a.score.value < b.score.value;
   }));
   // Two were verified, and the set says which of it they are.
   ASSERT_EQ(plan.verified.size(), 2U);
-  for (const ParetoMember& one : members)
-    EXPECT_EQ(one.verified, one.candidate == plan.verified[0].candidate || one.candidate == plan.verified[1].candidate);
-  const nlohmann::json record = pareto_json(study, plan);
+  for (const ParetoMember& member : members)
+    EXPECT_EQ(member.verified,
+              member.candidate == plan.verified[0].candidate || member.candidate == plan.verified[1].candidate);
+  const nlohmann::json record = pareto_json(one, plan);
   EXPECT_EQ(record.at("objectives"), (nlohmann::json{"cap_ratio", "target_distance"}));
   EXPECT_EQ(record.at("designs").size(), members.size());
 }
 
 TEST_F(ParetoStudy, NeedsTwoObjectives) {
-  const Study study =
-      read_study(folder.file("study.toml", study_text("algorithm = \"sobol\"\nmaxeval = 8\nfinal_replicates = 0") +
-                                               "[target.weight]\ncap_ratio = 0\n"));
-  Driver driver(study);
+  const Study one =
+      study("algorithm = \"sobol\"\nmaxeval = 8\nfinal_replicates = 0", "[target.weight]\ncap_ratio = 0\n");
+  Driver driver(one);
   Answers answers;
-  EXPECT_TRUE(pareto_json(study, search(study, driver, answers)).is_null());
+  EXPECT_TRUE(pareto_json(one, search_to_end(driver, answers, evaluate)).is_null());
 }
 
 }  // namespace

@@ -68,7 +68,9 @@ TEST_F(StudyRunTest, SaysHowItStands) {
     last = progress.standing;
     const std::string stage = last.substr(0, last.find(','));
     stages.insert(stage);
-    if (stage == "search" && last != stage) EXPECT_NE(last.find(", best so far: "), std::string::npos) << last;
+    if (stage == "search" && last != stage) {
+      EXPECT_NE(last.find(", best so far: "), std::string::npos) << last;
+    }
   };
   StudyRun run(study(), watched);
   run.run();
