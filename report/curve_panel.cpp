@@ -100,10 +100,10 @@ void annotate_window(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   const double middle = (low + high) / 2.0;
   canvas.text(middle, chart.box().y + 24.0,
               "plateau " + io::quantities({*marks.plateau_start, *marks.plateau_end}, io::Dimension::ratio, " to "),
-              {.size = 15.0, .colour = plateau_colour, .align = Align::centre, .halo = false});
+              {.size = 15.0, .colour = plateau_colour, .align = Align::centre, .halo = true});
   canvas.text(middle, chart.box().y + 48.0,
               marks.plateau_stress ? "mean " + stress_text(*marks.plateau_stress) : "not reached",
-              {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre});
+              {.size = 18.0, .colour = plateau_colour, .bold = true, .align = Align::centre, .halo = true});
 }
 
 void draw_densification(Canvas& canvas, const Chart& chart, const CurveMarks& marks, double top) {
