@@ -225,6 +225,22 @@ void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture) {
   draw_edges(context, box, picture);
 }
 
+void draw_fragment_key(Canvas& canvas, double x, double y) {
+  const auto entry = [&](const Colour& colour, const std::string& text) {
+    canvas.disc(x + 7.0, y - 5.5, 7.0, colour, palette::soft_ink, 0.8);
+    canvas.text(x + 21.0, y, text, {.size = 15.0, .colour = palette::soft_ink});
+    x += 21.0 + canvas.text_width(text, {.size = 15.0}) + 26.0;
+  };
+  entry(palette::concrete, "largest fragment");
+  entry(palette::fragments()[0], "");
+  x -= 36.0;
+  entry(palette::fragments()[1], "");
+  x -= 36.0;
+  entry(palette::fragments()[2], "other fragments");
+  entry(palette::damaged, "bonds lost");
+  entry(palette::dust, "crumbs");
+}
+
 void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_metre) {
   double length = 1e-3;
   for (double candidate : {1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3, 200e-3, 500e-3, 1.0})

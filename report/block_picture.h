@@ -55,6 +55,8 @@ Box fit_block(const BlockPicture& picture, const Box& room, double vertical_frac
 /// Draws the discs (periodic images included, cut at the outline) and the edges: thin lines where the block is
 /// periodic, bars for platens and walls, nothing at free sides.
 void draw_block(Canvas& canvas, const Box& box, const BlockPicture& picture);
+/// What the colours of picture_of_frame say, in one line of text from (x, y) on; some 540 points long.
+void draw_fragment_key(Canvas& canvas, double x, double y);
 /// A bar of a round length and its text, right aligned at (right, y).
 void draw_scale_bar(Canvas& canvas, double right, double y, double pixels_per_metre);
 /// Only holes in a slab of concrete: a design that was not packed.

@@ -60,6 +60,7 @@ void draw_frame(const results::RunResult& run, std::size_t k, const std::string&
   const double width = scale * picture.extent_x(), height = scale * picture.h_yy;
   draw_block(canvas, {room.x + 0.5 * (room.width - width), room.bottom() - height, width, height}, picture);
   draw_scale_bar(canvas, room.right(), room.bottom() + 30.0, scale);
+  draw_fragment_key(canvas, middle, page_height - 8.0);
   canvas.write();
 }
 

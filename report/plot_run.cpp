@@ -166,24 +166,6 @@ void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
     draw_snapshot(canvas, run, picture.snapshots[k], static_cast<char>('A' + k), rooms[k]);
 }
 
-void draw_key(Canvas& canvas) {
-  double x = middle;
-  const double y = page_height - 26.0;
-  const auto entry = [&](const Colour& colour, const std::string& text) {
-    canvas.disc(x + 7.0, y - 5.5, 7.0, colour, palette::soft_ink, 0.8);
-    canvas.text(x + 21.0, y, text, {.size = 15.0, .colour = palette::soft_ink});
-    x += 21.0 + canvas.text_width(text, {.size = 15.0}) + 26.0;
-  };
-  entry(palette::concrete, "largest fragment");
-  entry(palette::fragments()[0], "");
-  x -= 36.0;
-  entry(palette::fragments()[1], "");
-  x -= 36.0;
-  entry(palette::fragments()[2], "other fragments");
-  entry(palette::damaged, "bonds lost");
-  entry(palette::dust, "crumbs");
-}
-
 std::string caption_of(const results::FrameInfo& info, const char* what) {
   return fmt::format("{}, {} strain", what, io::quantity(info.strain, io::Dimension::ratio));
 }
@@ -213,7 +195,7 @@ void draw_run(const RunPicture& picture, const std::filesystem::path& out, const
                        {{run.history.strain_yy, run.history.stress_yy}}, marks_of(run, options));
   draw_badges(canvas, chart, picture.snapshots);
   draw_snapshots(canvas, picture);
-  if (!picture.snapshots.empty()) draw_key(canvas);
+  if (!picture.snapshots.empty()) draw_fragment_key(canvas, middle, page_height - 26.0);
   canvas.write();
 }
 
