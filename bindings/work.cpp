@@ -77,6 +77,12 @@ void add_evaluate(py::module_& module) {
       py::arg("design"), py::kw_only(), py::arg("replicate") = 0, py::arg("threads") = 0,
       py::arg("run_file") = py::none(), py::arg("packing_file") = py::none(), py::arg("resume") = false,
       py::arg("force") = false, py::arg("wall_time") = 0.0, py::arg("memory") = 0.0, py::arg("progress") = py::none());
+  module.def(
+      "score",
+      [](const py::object& source, const std::vector<Evaluation>& replicates) {
+        return score(design_from(source), replicates);
+      },
+      py::arg("design"), py::arg("replicates"));
 }
 
 CampaignOptions campaign_options(const fs::path& folder, int threads, bool resume, bool force) {

@@ -3,7 +3,9 @@
 
 #include "io/memory.h"
 #include "optimize/evaluate/run_output.h"
+#include "optimize/search/objective.h"
 #include "perfora/inside.h"
+#include "results/measured_anew.h"
 
 namespace perfora {
 
@@ -30,6 +32,26 @@ Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
       prepared.warnings.push_back(std::move(warning));
     made.warnings = std::move(prepared.warnings);
     return made;
+  });
+}
+
+double score(const Design& design, const std::vector<Evaluation>& replicates) {
+  return at_boundary([&] {
+    const optimize::Design& wishing = Inside::file(design).design();
+    if (!results::is_given(wishing.target))
+      throw io::InputError({"score", 0, "target"}, "nothing is wished", "a plateau stress, a curve, limits or weights",
+                           "set target.plateau_stress of the design");
+    if (replicates.empty())
+      throw io::InputError({"score", 0, "replicates"}, "there is no evaluation", "", "give one or more");
+    std::vector<results::Evaluation> measured;
+    for (const Evaluation& replicate : replicates) {
+      const results::Evaluation& all = Inside::evaluation(replicate);
+      measured.push_back(
+          results::measured_anew(all, wishing.measuring_frame(), all.summary.final_strain).value_or(all));
+    }
+    std::vector<const results::Evaluation*> pointers;
+    for (const results::Evaluation& one : measured) pointers.push_back(&one);
+    return optimize::score_of(wishing.target, pointers).value;
   });
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "perfora/design.h"
 #include "perfora/results.h"
@@ -69,5 +70,11 @@ struct EvaluateOptions {
 /// or the wall time) is Status::stopped; numerical trouble is Status::failed. Throws Error for a design that cannot be
 /// evaluated or would take more than `memory`, and a run file that exists or is of another design.
 Evaluation evaluate(const Design& design, const EvaluateOptions& options = {});
+
+/// What a search minimises (docs/user/theory.md, "Score"): how far the replicates of one design lie from what `design`
+/// wishes in [target]; 0: all of it is met. Whole curves are measured anew for this target, so that one run answers any
+/// wish. A replicate that failed or stopped makes it 750, worse than any that was simulated. Throws Error where nothing
+/// is wished, where there is no replicate, and for evaluations that were not made by the library.
+double score(const Design& design, const std::vector<Evaluation>& replicates);
 
 }  // namespace perfora

@@ -45,6 +45,7 @@ from perfora._functions import (
     read_table,
     run_campaign,
     run_ensemble,
+    score,
     stored_record,
 )
 
@@ -85,5 +86,6 @@ __all__ = [
     "read_table",
     "run_campaign",
     "run_ensemble",
+    "score",
     "stored_record",
 ]

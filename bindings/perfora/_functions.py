@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, Optional, Union
 
@@ -81,6 +81,16 @@ def evaluate(
         memory=memory,
         progress=progress,
     )
+
+
+def score(design: Union[Design, Changes, PathLike], replicates: Union[Evaluation, Iterable[Evaluation]]) -> float:
+    """What a search minimises (docs/user/theory.md, "Score"): how far evaluations of one design lie from what `design`
+    wishes in [target]; 0: all of it is met. Curves are measured anew for this target: one run answers any wish.
+
+    replicates: an evaluation, or several of other packings. One that failed or stopped makes the score 750, worse than
+    any that was simulated. Raises InputError where nothing is wished.
+    """
+    return _core.score(design, [replicates] if isinstance(replicates, Evaluation) else list(replicates))
 
 
 def run_campaign(

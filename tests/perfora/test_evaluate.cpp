@@ -1,5 +1,6 @@
 // What is here: evaluations of the public face held against optimize::evaluate_design() bit by bit; progress, stops,
 // run files. What is not: whether the numbers are right (tests/solver, tests/verification).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,6 +38,38 @@ TEST(PublicEvaluation, IsThatOfTheRoomsToTheLastBit) {
       EXPECT_EQ(measure.dimension, "stress");
       EXPECT_EQ(measure.label, "plateau stress");
     }
+}
+
+// docs/user/theory.md, "Score": a wish that is not kept costs (ln floor)^2 + (ln(mean/bound))^2, floor 0.05; one that
+// is kept nothing.
+TEST(PublicEvaluation, ScoreIsThatOfTheTheory) {
+  const Evaluation found = evaluate(small_block());
+  Design wish = small_block();
+  wish.set("target.weight.cap_ratio", 0.0);
+  EXPECT_THAT(error_of([&] { static_cast<void>(score(Design(), {found})); }), HasSubstr("nothing is wished"));
+  const double cap_ratio = found.measure("cap_ratio");
+  ASSERT_GE(cap_ratio, 1.0);
+  wish.set("target.limit.cap_ratio", fmt::format("{}", 0.5 * cap_ratio));
+  const double step = std::log(0.05), distance = std::log(2.0);
+  EXPECT_NEAR(score(wish, {found}), step * step + distance * distance, 1e-12);
+  EXPECT_NEAR(score(wish, {found, found}), step * step + distance * distance, 1e-12);
+  wish.set("target.limit.cap_ratio", fmt::format("{}", 2.0 * cap_ratio));
+  EXPECT_EQ(score(wish, {found}), 0.0);
+  EXPECT_THAT(error_of([&] { static_cast<void>(score(wish, {})); }), HasSubstr("there is no evaluation"));
+}
+
+// One run answers another window: its curve is measured anew.
+TEST(PublicEvaluation, ScoreMeasuresTheCurveForItsOwnWindow) {
+  const Evaluation found = evaluate(small_block());
+  Design other = small_block();
+  other.set("target.weight.cap_ratio", 0.0).set("target.tolerance", 0.9);
+  other.set("measures.plateau_start", 0.004).set("measures.plateau_end", 0.006);
+  const Evaluation again = evaluate(other);
+  ASSERT_NE(again.measure("plateau_stress"), found.measure("plateau_stress"));
+  other.set("target.plateau_stress", again.measure("plateau_stress"));
+  const double distance = evaluate(other).measure("target_distance");
+  ASSERT_GT(distance, 0.0);
+  EXPECT_NEAR(score(other, {found}), distance * distance, 1e-12);  // rounding of a sum over some ten bins
 }
 
 TEST(PublicEvaluation, MoreMemoryThanAllowedIsRefusedBeforeAnythingIsWritten) {

@@ -4,7 +4,11 @@ import os
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 
+import perfora
+
+from stub_docs import stub_with_docs
 from support import FolderTest, needs
 
 needs("mypy")
@@ -40,6 +44,11 @@ class TypingTest(FolderTest):
         wrong = [line for line in wrong if not line.startswith("Found ")]
         self.assertEqual(wrong, [], done.stderr)
         self.assertIn("perfora._core.Table", done.stdout)  # it did look
+
+    def test_docstrings_are_those_of_the_module(self):
+        stub = Path(__file__).parents[2] / "bindings" / "perfora" / "_core.pyi"
+        text = stub.read_text()
+        self.assertEqual(stub_with_docs(text, perfora._core), text, "renew it with tests/python/stub_docs.py")
 
     def test_programs_are_checked(self):
         (self.folder / "right.py").write_text(RIGHT)

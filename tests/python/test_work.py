@@ -38,6 +38,15 @@ class EvaluateTest(FolderTest):
         self.assertEqual(self.evaluation.record["schema"], "perfora.evaluate/1")
         self.assertEqual(self.evaluation.status, "completed")
 
+    def test_score_of_one_and_of_several(self):
+        cap_ratio = self.evaluation["cap_ratio"]
+        wish = perfora.Design(small, {"target.limit.cap_ratio": cap_ratio / 2, "target.weight.cap_ratio": 0})
+        wanted = math.log(0.05) ** 2 + math.log(2) ** 2  # docs/user/theory.md, "Score"
+        self.assertAlmostEqual(perfora.score(wish, self.evaluation), wanted)
+        self.assertAlmostEqual(perfora.score(wish, (one for one in [self.evaluation] * 2)), wanted)
+        with self.assertRaisesRegex(perfora.InputError, "nothing is wished"):
+            perfora.score(small, self.evaluation)
+
     def test_arrays_are_views_that_keep_their_owner(self):
         evaluation = perfora.evaluate(small)
         stress, again = evaluation.stress, evaluation.curve["stress_yy"]
