@@ -42,7 +42,8 @@ int sweep_designs(const SweepFlags& flags) {
   watch_on_terminal(options, progress);
   optimize::SweepRun run(std::move(sweep), options);
   log_warnings(run.sweep().warnings);
-  io::log_info(fmt::format("{} cases, {} runs", run.sweep().cases.size(), run.sweep().runs()));
+  const std::size_t cases = run.sweep().cases.size();
+  io::log_info(fmt::format("{} {}, {} runs", cases, cases == 1 ? "case" : "cases", run.sweep().runs()));
   if (run.sweep().left_out > 0)
     io::log_info(
         fmt::format("{} cases are left out by --only: the tables in {} show the others; --resume without it "

@@ -18,8 +18,8 @@ namespace perfora::app {
 
 namespace {
 
-/// Lines on standard output, one at a time, and a sign of life every second from begin() to end(): from a thread, so
-/// that it comes from long steps, too, and stops when the process is stopped.
+/// Lines on standard output, one at a time, and a sign of life every second from begin() to end(), with how far the
+/// work has come: from a thread, so that it comes from long steps, too, and stops when the process is stopped.
 class LineWriter {
  public:
   LineWriter() {
@@ -43,6 +43,11 @@ class LineWriter {
   void begin() {
     const std::lock_guard guard(mutex_);
     computing_ = true;
+    progress_ = {};
+  }
+  void note(const results::Progress& progress) {
+    const std::lock_guard guard(mutex_);
+    progress_ = progress;
   }
   /// Ends the signs of life with an answer.
   void end(const nlohmann::json& answer) {
@@ -56,7 +61,7 @@ class LineWriter {
     std::unique_lock guard(mutex_);
     try {
       while (!changed_.wait_for(guard, std::chrono::seconds(1), [this] { return ended_; }))
-        if (computing_) print_text("{\"alive\":true}\n");
+        if (computing_) print_text(optimize::sign_of_life(progress_).dump() + "\n");
     } catch (const io::SurroundingsError&) {  // Nobody listens; the answer will not arrive either.
     }
   }
@@ -64,6 +69,7 @@ class LineWriter {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool computing_ = false, ended_ = false;
+  results::Progress progress_;
   std::thread thread_;
 };
 
@@ -73,7 +79,9 @@ int work(int threads, double memory) {
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
     lines.begin();
-    const auto [said, stopped] = optimize::evaluate_record(nlohmann::json::parse(line), threads, stop_token(), memory);
+    const auto [said, stopped] =
+        optimize::evaluate_record(nlohmann::json::parse(line), threads, stop_token(), memory,
+                                  [&lines](const results::Progress& progress) { lines.note(progress); });
     lines.end(said);
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.

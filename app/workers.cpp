@@ -59,7 +59,9 @@ void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line) {
   options.line_an_answer = false;
   options.progress = [&line](const optimize::WorkProgress& work) {
     const auto all = static_cast<double>(work.known + work.remaining);
-    line.update(all > 0.0 ? static_cast<double>(work.known) / all : 1.0, work.standing);
+    const double done = static_cast<double>(work.known) + work.under_way;
+    const char* between = work.standing.empty() || work.simulation.empty() ? "" : " | ";
+    line.update(all > 0.0 ? done / all : 1.0, work.standing + between + work.simulation);
   };
 }
 

@@ -84,8 +84,8 @@ std::function<void(const optimize::WorkProgress&)> ProgressRelay::work_callback(
     told.finished = work.known;
     told.remaining = work.remaining;
     const auto all = static_cast<double>(work.known + work.remaining);
-    told.fraction = all > 0.0 ? static_cast<double>(work.known) / all : 1.0;
-    told.text = kind;
+    told.fraction = all > 0.0 ? (static_cast<double>(work.known) + work.under_way) / all : 1.0;
+    told.text = work.simulation.empty() ? kind : kind + ": " + work.simulation;
     tell(std::move(told));
   };
 }

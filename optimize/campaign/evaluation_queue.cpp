@@ -234,21 +234,48 @@ void EvaluationQueue::drop_run_file(const Request& request) const {
   std::filesystem::remove_all(path.replace_extension(".part"), ignored);
 }
 
+WorkProgress EvaluationQueue::how_far(const Campaign& campaign, const Executor& executor) const {
+  WorkProgress work{static_cast<std::int64_t>(answers_.size()), campaign.remaining(), campaign.standing(), 0.0, {}};
+  double longest = -1.0;
+  for (const UnderWay& one : executor.under_way()) {
+    work.under_way += one.progress.fraction;
+    if (one.progress.text.empty() || one.seconds <= longest) continue;
+    longest = one.seconds;
+    work.simulation = one.progress.text;
+  }
+  return work;
+}
+
+std::string EvaluationQueue::under_way_text(const Executor& executor) const {
+  const std::vector<UnderWay> all = executor.under_way();
+  const auto longest = std::max_element(all.begin(), all.end(),
+                                        [](const UnderWay& a, const UnderWay& b) { return a.seconds < b.seconds; });
+  if (longest == all.end() || longest->progress.text.empty() || !in_flight_.contains(longest->key)) return {};
+  return fmt::format("under way since {}: {}: {}{}", io::duration(longest->seconds), in_flight_.at(longest->key).label,
+                     longest->progress.text, all.size() > 1 ? fmt::format("; {} more", all.size() - 1) : "");
+}
+
 bool EvaluationQueue::run(Campaign& campaign) {
   using Clock = std::chrono::steady_clock;
   const io::Cancellation::Attention attention = options_.cancellation.attend();
   std::unique_ptr<Executor> executor;
   std::vector<Asked> wanted = wanted_by(campaign);
   bool stopped = options_.cancellation.requested();
-  Clock::time_point written = Clock::now();
+  Clock::time_point written = Clock::now(), said = written;
+  const auto tell = [&] {
+    if (options_.progress) options_.progress(how_far(campaign, *executor));
+  };
   while (!wanted.empty() && !stopped) {
     if (!executor) executor = options_.make_executor();
     workers_ = executor->workers();
     for (const Asked& asked : wanted)
       if (in_flight_.emplace(asked.key, asked).second) submit(*executor, asked);
+    tell();
     std::optional<Answer> answer = executor->next(look_interval);
-    if (options_.progress)
-      options_.progress({static_cast<std::int64_t>(answers_.size()), campaign.remaining(), campaign.standing()});
+    if (options_.line_an_answer && Clock::now() - said >= options_.log_interval) {
+      if (const std::string text = under_way_text(*executor); !text.empty()) io::log_info(text);
+      said = Clock::now();
+    }
     stopped = options_.cancellation.requested();
     if (!answer || (answer->trouble.empty() && answer->evaluation.status == results::RunStatus::stopped)) {
       if (answer) interrupted_ = std::move(answer->evaluation);
@@ -272,8 +299,10 @@ bool EvaluationQueue::run(Campaign& campaign) {
     if (!text.empty() && options_.line_an_answer) {
       const std::string standing = campaign.standing();
       io::log_info(text + (standing.empty() ? "" : "; " + standing) + time_left(campaign.remaining()));
+      said = Clock::now();
     }
     in_flight_.erase(asked.key);
+    tell();
     if (wanted.empty() || Clock::now() - written < options_.results_interval) continue;
     campaign.write_results();
     if (options_.results_written) options_.results_written();

@@ -47,6 +47,8 @@ struct WorkProgress {
   std::int64_t known = 0;      ///< evaluations that the journal holds
   std::int64_t remaining = 0;  ///< that may still come, at most
   std::string standing;        ///< Campaign::standing()
+  double under_way = 0.0;      ///< evaluations' worth of work that the workers have done of those they are at
+  std::string simulation;      ///< how the one begun first stands: "strain 12.30 %, stress 210 kPa"; empty: not known
 };
 
 /// How a folder's work is carried out.
@@ -69,6 +71,8 @@ struct WorkOptions {
   std::function<void(const WorkProgress&)> progress;
   /// A line a finished evaluation; off where `progress` draws one line that says it all.
   bool line_an_answer = true;
+  /// Where no evaluation has ended for so long, a line says how the one begun first stands.
+  std::chrono::milliseconds log_interval = std::chrono::minutes(5);
   /// Results of unfinished work are written this often, so that a kill leaves something to look at.
   std::chrono::seconds results_interval = std::chrono::seconds(60);
   /// Called when they were. May be empty.
@@ -134,6 +138,9 @@ class EvaluationQueue {
   std::string time_left(std::int64_t remaining) const;
 
  private:
+  WorkProgress how_far(const Campaign& campaign, const Executor& executor) const;
+  /// "under way since 12 min 05 s: diameter 9 mm: strain 12.30 %, stress 210 kPa"; empty: not known.
+  std::string under_way_text(const Executor& executor) const;
   void take_evaluation(const std::string& key, const nlohmann::json& record);
   void record(Campaign& campaign, const Asked& asked, Answer answer);
   /// True: it is asked again or left out; false: the work stops.

@@ -25,6 +25,13 @@ struct Answer {
   int attempts = 1;  ///< of this request in this session, this one included; counted by whoever asks
 };
 
+/// An evaluation that a worker is at.
+struct UnderWay {
+  std::string key;
+  double seconds = 0.0;        ///< wall time so far
+  results::Progress progress;  ///< no text: not known
+};
+
 /// Used from one thread, which must outlive it (children die with the thread that made them).
 class Executor {
  public:
@@ -36,6 +43,8 @@ class Executor {
   virtual std::optional<Answer> next(std::chrono::milliseconds timeout) = 0;
   /// Drops what is queued and ends what runs; afterwards next() gives nothing.
   virtual void stop() = 0;
+  /// What the workers are at, where they tell.
+  virtual std::vector<UnderWay> under_way() const { return {}; }
 };
 
 /// One evaluation. May throw: io::InputError becomes an evaluation with status `failed`, anything else a trouble. Must
@@ -55,7 +64,7 @@ inline constexpr int cannot_start = 127;
 
 struct ChildOptions {
   /// Program and arguments of a worker. It takes a Request a line on its input. On its output it gives a line for each:
-  /// an Evaluation, or {"trouble": TEXT}; before it, while it computes, {"alive": true} every second.
+  /// an Evaluation, or {"trouble": TEXT}; before it, while it computes, a sign of life every second (worker_record.h).
   std::vector<std::string> command;
   int workers = 1;
   int threads = 1;                                ///< of each

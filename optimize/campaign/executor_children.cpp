@@ -43,7 +43,8 @@ struct Child {
   std::unique_ptr<WorkerProcess> process;  ///< nullptr: not started
   std::optional<Job> job;
   Clock::time_point since, last_sign;
-  double time_limit = 0.0;  ///< s, of the job; 0: none
+  double time_limit = 0.0;     ///< s, of the job; 0: none
+  results::Progress progress;  ///< of the job
   int seen_stopped = 0;
   std::set<int> replicates;  ///< whose packings it has made already
 };
@@ -86,6 +87,13 @@ class ChildExecutor final : public Executor {
     return std::nullopt;
   }
 
+  std::vector<UnderWay> under_way() const override {
+    std::vector<UnderWay> all;
+    for (const Child& child : children_)
+      if (child.job) all.push_back({child.job->key, seconds_of(child), child.progress});
+    return all;
+  }
+
   void stop() override {
     stopped_ = true;
     queue_.clear();
@@ -124,6 +132,7 @@ class ChildExecutor final : public Executor {
       child->job = std::move(job);
       child->since = child->last_sign = Clock::now();
       child->seen_stopped = 0;
+      child->progress = {};
       if (!child->process->send(to_json(child->job->request).dump() + "\n")) lose(*child, "");
     }
   }
@@ -198,7 +207,10 @@ class ChildExecutor final : public Executor {
 
   void accept(Child& child, const std::string& line) {
     nlohmann::json record = nlohmann::json::parse(line, nullptr, false);
-    if (record.is_object() && record.contains("alive")) return;
+    if (is_sign_of_life(record)) {
+      child.progress = told_by(record);
+      return;
+    }
     if (!child.job) return lose(child, "it was not asked");
     Answer answer{child.job->key, {}, seconds_of(child)};
     try {

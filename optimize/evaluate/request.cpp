@@ -103,7 +103,8 @@ Request make_request(const DesignFile& design, int replicate, double until) {
   return request;
 }
 
-Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation, double memory) {
+Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation, double memory,
+                            const results::ProgressCallback& progress) {
   try {
     DesignFile design = DesignFile::of(*request.design, "request");
     if (!request.material_test.empty())
@@ -116,6 +117,7 @@ Evaluation evaluate_request(const Request& request, int threads, const io::Cance
     EvaluateOptions options;
     options.threads = threads;
     options.cancellation = cancellation;
+    options.progress = progress;
     options.run_file = request.run_file;
     options.resume = !request.run_file.empty();
     if (request.frames) design.design().solver.output.frames = solver::FrameChoice::few;

@@ -56,8 +56,9 @@ Request request_from_json(const nlohmann::json& record, DesignTexts* known = nul
 
 /// Evaluates a request (used by in-process and child-process executors alike). A design that cannot be evaluated is an
 /// Evaluation with status `failed` and the reason, so that a search goes on. One that would take more than `memory`
-/// bytes (0: no limit) throws io::SurroundingsError: on a larger machine it is an evaluation like any other.
+/// bytes (0: no limit) throws io::SurroundingsError: on a larger machine it is an evaluation like any other. `progress`
+/// may be empty; of material tests nothing is told.
 Evaluation evaluate_request(const Request& request, int threads, const io::Cancellation& cancellation = {},
-                            double memory = 0.0);
+                            double memory = 0.0, const results::ProgressCallback& progress = {});
 
 }  // namespace perfora::optimize

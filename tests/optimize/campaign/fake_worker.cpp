@@ -9,6 +9,7 @@
 #include <iostream>
 #include <string>
 
+#include "optimize/campaign/worker_record.h"
 #include "tests/optimize/search/study_support.h"
 
 namespace {
@@ -56,6 +57,13 @@ void misbehave(int replicate, const std::string& folder) {
     case 113:
       for (int k = 0; k < 3; ++k) {
         std::cout << "{\"alive\":true}" << std::endl;
+        ::usleep(20000);
+      }
+      break;
+    case 115:
+      std::cout << sign_of_life({}) << std::endl;
+      for (int k = 0; k < 20; ++k) {
+        std::cout << sign_of_life({0.4, "strain 4 %", 0.04, 1e5}) << std::endl;
         ::usleep(20000);
       }
       break;

@@ -112,6 +112,25 @@ TEST(Children, ACrashIsATroubleAndNoEvaluation) {
   EXPECT_EQ(answers.at("113").evaluation.summary.plateau_stress, 113000.0) << "signs of life are no answers";
 }
 
+TEST(Children, TellHowFarTheyHaveCome) {
+  const StudyFolder folder;
+  const auto executor = make_child_executor(child_options(folder, 1));
+  EXPECT_TRUE(executor->under_way().empty());
+  executor->submit("a", request_of(115));
+  std::vector<UnderWay> seen;
+  std::optional<Answer> answer;
+  while (!(answer = executor->next(5ms)))
+    for (UnderWay& one : executor->under_way())
+      if (!one.progress.text.empty()) seen.push_back(std::move(one));
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.back().key, "a");
+  EXPECT_EQ(seen.back().progress.fraction, 0.4);
+  EXPECT_EQ(seen.back().progress.text, "strain 4 %");
+  EXPECT_GE(seen.back().seconds, seen.front().seconds);
+  EXPECT_EQ(answer->evaluation.summary.plateau_stress, 115000.0);
+  EXPECT_TRUE(executor->under_way().empty());
+}
+
 TEST(Children, AreReplacedWhenTheyDied) {
   const StudyFolder folder;
   const auto executor = make_child_executor(child_options(folder, 1));
