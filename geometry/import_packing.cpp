@@ -51,6 +51,10 @@ void refuse_disc_within_another(const Packing& packing, const std::vector<int>& 
     }
 }
 
+double metres(std::string_view unit, const io::Origin& origin = {}) {
+  return io::parse_quantity(io::Value{fmt::format("1 {}", unit)}, io::Dimension::length, origin);
+}
+
 /// m of one unit of length of the file; 0: nobody says.
 double unit_of(const PackingOptions& options) {
   if (options.file_unit.empty()) return 0.0;
@@ -58,7 +62,7 @@ double unit_of(const PackingOptions& options) {
   if (!io::is_unit(options.file_unit, io::Dimension::length))
     throw io::InputError(origin, io::in_quotes(options.file_unit) + " is no unit of length",
                          io::accepted_units(io::Dimension::length), "write file_unit = \"mm\"");
-  return io::parse_quantity(io::Value{"1 " + options.file_unit}, io::Dimension::length, origin);
+  return metres(options.file_unit, origin);
 }
 
 /// The planes by their names in a design.
@@ -119,7 +123,7 @@ Discs discs_of_csv(const PackingOptions& options) {
   return scaled(std::move(table), unit);
 }
 
-/// What would make a box that is not the cell fit: another plane, another unit, the cell itself.
+/// What would make a box that is not the cell fit: another plane, another unit, another frame, the cell itself.
 std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& options, double unit, double width,
                            double height) {
   const auto span = [&](std::size_t axis) { return spheres.high[axis] - spheres.low[axis]; };
@@ -129,15 +133,21 @@ std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& o
     return std::abs(of_unit * span(axes[0]) - width) <= alike * width &&
            std::abs(of_unit * span(axes[1]) - height) <= alike * height;
   };
-  constexpr std::pair<const char*, double> units[] = {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+  constexpr const char* units[] = {"m", "cm", "mm", "um"};
   for (const auto& [plane, name] : planes)
     if (plane != options.file_plane && fits(plane, unit)) return fmt::format("write file_plane = \"{}\"", name);
-  for (const auto& [name, of_unit] : units)
-    if (fits(options.file_plane, of_unit)) return fmt::format("write file_unit = \"{}\"", name);
+  for (const char* name : units)
+    if (fits(options.file_plane, metres(name))) return fmt::format("write file_unit = \"{}\"", name);
   for (const auto& [plane, plane_name] : planes)
-    for (const auto& [name, of_unit] : units)
-      if (fits(plane, of_unit))
+    for (const char* name : units)
+      if (fits(plane, metres(name)))
         return fmt::format("write file_plane = \"{}\" and file_unit = \"{}\"", plane_name, name);
+  const auto axes = axes_of(options.file_plane);
+  constexpr double alike = 1e-3;
+  if (std::abs(unit * span(axes[0]) - width) <= alike * width && unit * span(axes[1]) < height)
+    return "of a dump the last frame counts, which is compressed where the dump is of a run: write the block before it "
+           "is "
+           "loaded with perfora export RUN.h5 --lammps-dump --at 0, or give the cell the size of the box";
   return "give the cell the size of the box, or correct packing.file_unit or packing.file_plane";
 }
 
@@ -203,6 +213,18 @@ Discs read_discs(const PackingOptions& options, double width, double height) {
 }
 
 }  // namespace
+
+std::string import_note(const PackingOptions& options) {
+  constexpr std::size_t enough = 4000;
+  const std::string beginning = io::read_beginning(options.file, enough);
+  if (is_lammps_dump(beginning) || is_lammps_data(beginning) || !io::csv_names(options.file).empty()) return {};
+  const auto axes = axes_of(options.file_plane);
+  return fmt::format(
+      "{} has no header: its columns are taken for {}, {} and radius{}; name them in a first line, such as "
+      "\"x [mm], y [mm], diameter [mm]\"",
+      options.file.string(), "xyz"[axes[0]], "xyz"[axes[1]],
+      options.file_unit.empty() ? " in metres" : fmt::format(" in {}", options.file_unit));
+}
 
 Packing import_packing(const PackingOptions& options, double width, double height) {
   const Discs discs = read_discs(options, width, height);

@@ -59,5 +59,8 @@ Packing make_packing(const PackingOptions& options, double width, double height,
 /// read, a unit that nobody says, a radius that does not belong in the cell, discs that lie in no plane or within each
 /// other (also across the boundary), more area of discs than the cell has.
 Packing import_packing(const PackingOptions& options, double width, double height);
+/// What import_packing assumes of options.file that its writer may not have meant: a sentence without a full stop,
+/// empty where there is nothing to say. Throws io::InputError for a file that cannot be read.
+std::string import_note(const PackingOptions& options);
 
 }  // namespace perfora::geometry

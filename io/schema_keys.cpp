@@ -231,9 +231,19 @@ Section& Section::numbers(std::string name, std::vector<double>& field, NumbersF
   assert(!form.dimensions.empty());
   Key key = described(std::move(name), KeyType::real_list, std::move(help), form.dimensions.back());
   key.choices = form.words;
+  const bool mixed = form.dimensions.size() > 1;  // the place of a number says what it is
   std::string wanted = form.most == 1 ? "a number is wanted" : "a number or a list of numbers is wanted";
+  if (mixed) {
+    std::string names, examples;
+    for (const Dimension dimension : form.dimensions) {
+      const char* before = names.empty() ? "" : ", ";
+      names += fmt::format("{}{}", before, dimension_name(dimension));
+      examples += fmt::format("{}\"{}\"", before, example_of(dimension));
+    }
+    wanted = fmt::format("[{}] is wanted, such as [{}]", names, examples);
+  }
   for (const std::string& word : form.words) wanted += fmt::format(", or \"{}\"", word);
-  key.set = [&field, form, wanted](const Value& value, const Origin& origin) {
+  key.set = [&field, form, wanted, mixed](const Value& value, const Origin& origin) {
     const auto* text = std::get_if<std::string>(&value.data);
     if (text && std::find(form.words.begin(), form.words.end(), *text) != form.words.end()) {
       *form.word = *text;
@@ -243,8 +253,14 @@ Section& Section::numbers(std::string name, std::vector<double>& field, NumbersF
     std::vector<double> numbers;
     const auto take = [&](const Value& element) {
       const Dimension dimension = form.dimensions[std::min(numbers.size(), form.dimensions.size() - 1)];
-      numbers.push_back(parse_quantity(element, dimension, at_line_of(origin, element)));
+      try {
+        numbers.push_back(parse_quantity(element, dimension, at_line_of(origin, element)));
+      } catch (const InputError& error) {
+        if (!mixed) throw;
+        throw InputError(error.origin(), fmt::format("value {}: {}", numbers.size() + 1, error.problem()), wanted);
+      }
     };
+    if (!list && mixed) refuse(value, wanted, origin);
     if (!list && !form.words.empty() && text && nearest_name(*text, form.words) != "") refuse(value, wanted, origin);
     if (list)
       std::for_each(list->begin(), list->end(), take);

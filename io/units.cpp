@@ -26,10 +26,17 @@ struct Unit {
 };
 
 constexpr Unit ratio_units[] = {{"%", -2}};
-constexpr Unit length_units[] = {{"m", 0}, {"cm", -2}, {"mm", -3}, {"um", -6}, {"nm", -9}};
+constexpr Unit length_units[] = {{"m", 0}, {"cm", -2}, {"mm", -3}, {"um", -6}, {"nm", -9}, {"in", -3, 25.4, false}};
 constexpr Unit area_units[] = {{"m2", 0}, {"cm2", -4}, {"mm2", -6}};
 constexpr Unit stress_units[] = {
-    {"Pa", 0}, {"kPa", 3}, {"MPa", 6}, {"GPa", 9}, {"N/m2", 0, 1.0, false}, {"N/mm2", 6, 1.0, false}};
+    {"Pa", 0},
+    {"kPa", 3},
+    {"MPa", 6},
+    {"GPa", 9},
+    {"N/m2", 0, 1.0, false},
+    {"N/mm2", 6, 1.0, false},
+    {"bar", 5, 1.0, false},
+    {"psi", 0, 6894.757293168361, false}};  // 1 lbf/in2: 0.45359237 kg x 9.80665 m/s2 / (25.4 mm)2
 constexpr Unit stiffness_units[] = {{"N/m", 0}, {"kN/m", 3}, {"MN/m", 6}, {"N/mm", 3}, {"kN/mm", 6, 1.0, false}};
 constexpr Unit density_units[] = {{"kg/m3", 0}, {"g/cm3", 3}, {"t/m3", 3}};
 constexpr Unit time_units[] = {{"s", 0}, {"ms", -3}, {"us", -6}, {"min", 0, 60.0}, {"h", 0, 3600.0}};
@@ -216,6 +223,10 @@ std::string_view dimension_name(Dimension dimension) {
   if (dimension == Dimension::none) return "";
   const std::string_view with_article = facts(dimension).name;
   return with_article.substr(with_article.find(' ') + 1);
+}
+
+std::string_view example_of(Dimension dimension) {
+  return facts(dimension).example;
 }
 
 bool is_unit(std::string_view unit, Dimension dimension) {

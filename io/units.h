@@ -15,6 +15,8 @@ double parse_quantity(const Value& value, Dimension dimension, const Origin& ori
 std::string_view si_unit(Dimension dimension);
 /// Name of a dimension: "length", "energy density", ...; "" for none.
 std::string_view dimension_name(Dimension dimension);
+/// A quantity of this dimension as it may be written, such as "20 mm"; empty for a plain number and a count.
+std::string_view example_of(Dimension dimension);
 /// Whether `unit`, in any spelling that parse_quantity takes, is a unit of the dimension.
 bool is_unit(std::string_view unit, Dimension dimension);
 /// The unit names accepted for a dimension, for messages.

@@ -74,6 +74,7 @@ DiscSizes disc_sizes(const Design& design, std::vector<std::string>& warnings) {
   if (design.packing.file.empty()) return {design.packing.mean_diameter, design.packing.maximum_diameter};
   const geometry::Packing packing =
       geometry::import_packing(design.packing, design.layout.cell_width(), design.layout.cell_height());
+  if (std::string note = geometry::import_note(design.packing); !note.empty()) warnings.push_back(std::move(note));
   if (packing.quality.max_overlap_ratio > geometry::overlap_limit)
     warnings.push_back(fmt::format(
         "{}: discs overlap by up to {} of the smaller diameter, more than the {} of packings made here: bonds start "

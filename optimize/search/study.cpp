@@ -76,9 +76,10 @@ struct Reader {
       throw io::InputError(origin("study.maxeval"), "a budget is given, too, which says how many candidates there are",
                            "study.maxeval or study.budget", "leave one of them out");
     if (use == StudyUse::search && study.keys.maxeval < 1 && !(study.keys.budget > 0.0))
-      throw io::InputError(
-          origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
-          "add maxeval = 24 under [study], or budget = \"10 h\"; most algorithms never stop by themselves");
+      throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
+                           "add maxeval = 24 under [study], or budget = \"10 h\"; most algorithms never stop by "
+                           "themselves; what a map gives "
+                           "without a search is told by perfora map STUDY");
     refuse_skip(study.keys.execution, origin("study.on_trouble"));
     set_target(start);
     set_window(start);

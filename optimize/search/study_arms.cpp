@@ -173,35 +173,52 @@ ArmHoles holes_of(const Study& study, const Arm& arm, std::optional<std::size_t>
   return found;
 }
 
+/// "a, b, c and 7 more".
+std::string first_few(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  std::string text =
+      io::joined({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most))});
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
 /// Arms whose choices say nothing to their family (the turn of a square one) are one and the same search.
 void drop_repeated(Study& study) {
   std::vector<Arm> different;
   std::vector<ArmHoles> known;
+  std::vector<std::string> repeated;
   for (const Arm& arm : study.arms) {
     ArmHoles holes = holes_of(study, arm);
     std::size_t k = 0;
     while (k < known.size() && !(different[k].start == arm.start && known[k].same(holes))) ++k;
     if (k < known.size()) {
-      study.warnings.push_back(
-          fmt::format("arm {} is left out: its holes are those of arm {}", arm.name, different[k].name));
+      repeated.push_back(fmt::format("{} (as {})", arm.name, different[k].name));
       continue;
     }
     different.push_back(arm);
     known.push_back(std::move(holes));
   }
+  if (!repeated.empty())
+    study.warnings.push_back(fmt::format(
+        "{} left out, as another arm has the same holes: {}",
+        repeated.size() == 1 ? "1 arm is" : fmt::format("{} arms are", repeated.size()), first_few(repeated)));
   study.arms = std::move(different);
 }
 
 /// A variable that leaves the holes of an arm as they are (the stagger of a square one) makes its candidates one
 /// design.
 void warn_about_idle_variables(Study& study) {
-  for (const Arm& arm : study.arms)
-    for (std::size_t k = 0; k < study.variables.size(); ++k)
-      if (holes_of(study, arm, k, 0.0).same(holes_of(study, arm, k, 1.0)))
-        study.warnings.push_back(
-            fmt::format("variables.{} has no effect on arm {}: its holes are the same for every value; take it out, or "
-                        "choose a layout that has it",
-                        study.variables[k].key, arm.name));
+  for (std::size_t k = 0; k < study.variables.size(); ++k) {
+    std::vector<std::string> arms;
+    for (const Arm& arm : study.arms)
+      if (holes_of(study, arm, k, 0.0).same(holes_of(study, arm, k, 1.0))) arms.push_back(arm.name);
+    if (arms.empty()) continue;
+    const bool one = arms.size() == 1;
+    study.warnings.push_back(fmt::format(
+        "variables.{} has no effect on {} {}: {} holes are the same for every value; take it out, or choose a "
+        "layout that has it",
+        study.variables[k].key, one ? "arm" : "arms", first_few(arms), one ? "its" : "their"));
+  }
 }
 
 void drop_impossible(Study& study) {

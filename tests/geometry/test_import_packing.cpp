@@ -124,6 +124,24 @@ TEST_F(ImportFiles, CsvWithUnitsDiametersAndAPlane) {
   EXPECT_EQ(other.radius, packing.radius);
 }
 
+TEST_F(ImportFiles, ColumnsWithoutNamesAreTold) {
+  options_.file_unit = "mm";
+  options_.file_plane = ImportPlane::xz;
+  read("1, 2, 0.5\n4, 15, 0.25\n");
+  EXPECT_THAT(import_note(options_), HasSubstr("has no header: its columns are taken for x, z and radius in mm"));
+  read("x, z, radius\n1, 2, 0.5\n4, 15, 0.25\n");
+  EXPECT_EQ(import_note(options_), "");
+  options_.file_plane = ImportPlane::xy;
+  read(dump(bounds, "id type x y z radius", "1 1 -4 2 0 0.5\n2 1 4.5 15 0 0.25\n"));
+  EXPECT_EQ(import_note(options_), "");
+}
+
+TEST_F(ImportFiles, TheLastFrameOfARunIsCompressed) {
+  options_.file_unit = "mm";
+  const std::string last = dump("-5 5\n0 12\n-0.5 0.5\n", "id x y z radius", "1 -4 2 0 0.5\n2 4.5 11 0 0.25\n");
+  EXPECT_THAT(complaint(last), HasSubstr("--at 0"));
+}
+
 // Every beginning, and bytes changed at random, of good files: taken or refused.
 TEST_F(ImportFiles, BrokenFilesAreRefusedOrTaken) {
   const std::string good_dump =

@@ -34,6 +34,9 @@ TEST(Quantity, HasTheBitsOfTheSameNumberInSi) {
   EXPECT_EQ(quantity("400 mm\u00b2", Dimension::area), 400e-6);
   EXPECT_EQ(quantity("2 MPa", Dimension::stress), 2e6);
   EXPECT_EQ(quantity("0.3 N/mm2", Dimension::stress), 0.3e6);
+  EXPECT_EQ(quantity("12 bar", Dimension::stress), 1.2e6);
+  EXPECT_NEAR(quantity("1000 psi", Dimension::stress), 6.894757e6, 1.0);  // NIST SP 811, appendix B, seven digits
+  EXPECT_EQ(quantity("2 in", Dimension::length), 0.0508);
   EXPECT_EQ(quantity("2.195e7 N/m", Dimension::stiffness), 2.195e7);
   EXPECT_EQ(quantity("21.95 MN/m", Dimension::stiffness), 21.95e6);
   EXPECT_EQ(quantity("2200 kg/m3", Dimension::density), 2200.0);

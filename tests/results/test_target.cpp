@@ -108,6 +108,19 @@ TEST(Target, RefusesWhatMakesNoSense) {
   }
 }
 
+TEST(Target, AStressUpToAStrainIsAPair) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"\"3 MPa\"", "found the text \"3 MPa\"; [ratio, stress] is wanted, such as [\"25 %\", \"2 MPa\"]"},
+      {"[\"3 MPa\", 0.4]", "value 1: \"MPa\" in \"3 MPa\" is no unit of a ratio"},
+  };
+  for (const auto& [value, expected] : cases) try {
+      Read read(std::string("[target]\nlimit.stress_until = ") + value + "\n");
+      ADD_FAILURE() << value << " was taken";
+    } catch (const io::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+}
+
 TEST(Target, WordsOfTheWindowAreNamedWhereAnotherIsWritten) {
   try {
     Read read("[target]\nwindow = \"founded\"\n");

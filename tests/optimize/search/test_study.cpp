@@ -109,16 +109,29 @@ TEST_F(StudyFile, AVariableWithoutEffectIsTold) {
   EXPECT_TRUE(has(told[0], "variables.layout.stagger has no effect on arm family=square")) << told[0];
 }
 
+// However many arms it bears on, one variable is one line.
+TEST_F(StudyFile, AVariableWithoutEffectOnManyArmsIsOneWarning) {
+  const Study study = read(
+      "[study]\ndesign = \"design.toml\"\nmaxeval = 9\n[target]\nplateau_stress = \"0.2 MPa\"\n[variables]\n"
+      "\"layout.stagger\" = [0.1, 0.5]\n[arms]\nfamily = [\"square\"]\nrows = [1, 2, 3, 4, 5]\n");
+  std::vector<std::string> told;
+  for (const std::string& warning : study.warnings)
+    if (has(warning, "has no effect")) told.push_back(warning);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(has(told[0], "on arms family=square rows=1, family=square rows=2, family=square rows=3 and ")) << told[0];
+}
+
 TEST_F(StudyFile, TurnsAreArmsOfTheRotatedFamilyOnly) {
   // Two rows of two turned by 0 are the square holes, and a turn does not change the square ones.
   const Study study = read(study_text("maxeval = 9", "family = [\"square\", \"rotated\"]\nturn = [0, 1, -2]"));
   EXPECT_EQ(names(study),
             (std::vector<std::string>{"family=square turn=0", "family=rotated turn=1", "family=rotated turn=-2"}));
   EXPECT_EQ(fractions(study), (std::vector<int>{3, 3, 3}));
-  int left_out = 0;
-  for (const std::string& warning : study.warnings)
-    left_out += has(warning, "is left out: its holes are those of arm family=square turn=0");
-  EXPECT_EQ(left_out, 3);
+  const auto left_out = [](const std::string& warning) {
+    return has(warning, "3 arms are left out, as another arm has the same holes: ") &&
+           has(warning, "family=square turn=1 (as family=square turn=0)");
+  };
+  EXPECT_EQ(std::count_if(study.warnings.begin(), study.warnings.end(), left_out), 1);
   const LayoutMeasure measure = measure_layout(study.design_at(&study.arms[1], std::vector{0.016, 0.0}));
   ASSERT_TRUE(measure.placed);
   // Five holes at a pitch of 50 mm/sqrt(5).
