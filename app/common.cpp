@@ -42,6 +42,14 @@ extern "C" void ask_to_stop(int) {
 CLI::Validator seed_range() {
   return CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1).description("");
 }
+
+/// What is wrong with a flag that changes a design, beside results.
+std::string of_another_command(const std::string& flag) {
+  return flag + " changes a design, and results are taken as they are: give it to the command that makes them";
+}
+CLI::Validator no_effect_on_results(const std::string& flag) {
+  return {[flag](std::string&) { return of_another_command(flag); }, ""};
+}
 }  // namespace
 
 CLI::Validator positive_number(bool zero) {
@@ -129,18 +137,27 @@ double CommonFlags::memory_allowed() const {
   return bytes;
 }
 
+void CommonFlags::refuse_overrides(const std::filesystem::path& input) const {
+  if (!overrides().empty())
+    throw io::InputError({input.string(), 0, ""}, "is no design", "", of_another_command("--set"));
+}
+
 void CommonFlags::apply() const {
   io::set_verbosity(quiet ? io::Verbosity::quiet : io::Verbosity::normal);
 }
 
 void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
-  const std::string design_group = uses == Uses::design ? "Design" : "";  // "": accepted but not listed
+  const std::string design_group = uses == Uses::files_only ? "" : "Design";  // "": accepted but not listed
   const std::string output_group = "Everywhere";
-  command.add_option("--set", flags.set, "Set one key of the design: section.key=value (repeatable)")
-      ->group(design_group)
-      ->allow_extra_args(false);
+  CLI::Option* set =
+      command.add_option("--set", flags.set, "Set one key of the design: section.key=value (repeatable)")
+          ->group(design_group)
+          ->allow_extra_args(false);
+  if (uses == Uses::files_only) set->check(no_effect_on_results("--set"));
   auto add_seed_flag = [&](const std::string& name, std::vector<std::int64_t>& value, const std::string& help) {
-    command.add_option(name, value, help)->group(design_group)->expected(1)->check(seed_range())->type_name("N");
+    CLI::Option* seed = command.add_option(name, value, help)->group(design_group)->expected(1);
+    seed->check(seed_range())->type_name("N");
+    if (uses == Uses::files_only) seed->check(no_effect_on_results(name));
   };
   add_seed_flag("--seed", flags.seed, "The number all random streams are derived from (default 1)");
   add_seed_flag("--packing-seed", flags.packing_seed, "Seed of the disc packing alone (0: from --seed)");

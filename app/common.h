@@ -51,11 +51,14 @@ struct CommonFlags {
   int thread_count(int otherwise = 0) const;
   /// --memory in bytes, or what the machine and the limits of this process allow. Throws io::InputError.
   double memory_allowed() const;
+  /// Throws io::InputError where a key or a seed is given beside `input`, which is no design.
+  void refuse_overrides(const std::filesystem::path& input) const;
   /// Quiet or normal log; call first in every subcommand.
   void apply() const;
 };
 
-/// Which of the common flags mean something for a subcommand; the others are accepted, hidden and without effect.
+/// Which of the common flags mean something for a subcommand. The others are hidden: threads and memory are accepted
+/// without effect, keys and seeds of a design are refused.
 enum class Uses { design, files_only };
 void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses = Uses::design);
 

@@ -104,7 +104,7 @@ void draw_design(const fs::path& input, const fs::path& output, const PlotFlags&
         fmt::format("give the design it names, or its folder after perfora {}", kind == "study"   ? "optimize"
                                                                                 : kind == "sweep" ? "sweep"
                                                                                                   : "calibrate"));
-  const optimize::DesignFile design(input);
+  const optimize::DesignFile design(input, flags.common.overrides());
   static_cast<void>(design.validate(optimize::Purpose::block));
   const optimize::Design& d = design.design();
   report::PlotOptions options;
@@ -115,6 +115,7 @@ void draw_design(const fs::path& input, const fs::path& output, const PlotFlags&
 
 void draw(const PlotFlags& flags, const fs::path& output) {
   const fs::path input = flags.inputs.front();
+  if (flags.inputs.size() > 1 || input.extension() != ".toml") flags.common.refuse_overrides(input);
   if (flags.collapse) refuse_curves(flags, "--collapse");
   for (const fs::path one : flags.inputs)
     if (fs::is_directory(one)) return draw_folder(flags, one, output);
@@ -193,7 +194,7 @@ void add_plot(CLI::App& program, int& exit_code) {
       ->allow_extra_args(false);
   command->add_flag("--collapse", flags->collapse,
                     "Of runs, and of a sweep that keeps its run files: frames side by side instead of curves");
-  add_common_flags(*command, flags->common, Uses::files_only);
+  add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = plot(*flags); });
 }
 

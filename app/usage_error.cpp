@@ -38,9 +38,11 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// First line of CLI11's own message, without a closing full stop.
+/// First line of CLI11's own message, without a closing full stop and the name before it, which is empty for a flag
+/// that --help does not list.
 std::string first_line(const std::string& message) {
   std::string line = message.substr(0, message.find('\n'));
+  if (line.starts_with(": ")) line.erase(0, 2);
   while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
   return line;
 }

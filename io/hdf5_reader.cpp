@@ -182,7 +182,9 @@ bool is_proved(const OpenFile& file, const std::filesystem::path& path) {
   if (trailer == Trailer::damaged) refuse(path, "is damaged (its checksum does not fit)", damaged_remedy);
   if (trailer == Trailer::absent) {
     if (H5Fis_hdf5(path.c_str()) <= 0)
-      refuse(path, "is not an HDF5 file, or may not be read", "check the path and its permissions");
+      refuse(path, "is not an HDF5 file, or may not be read",
+             path.extension() == ".toml" ? "a design is evaluated first: perfora evaluate DESIGN.toml -o RESULT.h5"
+                                         : "check the path and its permissions");
     if (!survives_reading(path, size)) refuse(path, "is cut off or damaged", damaged_remedy);
   }
   remember(status, trailer == Trailer::fits);

@@ -105,7 +105,7 @@ void forget_lines(Value& value) {
   std::string remedy = "texts and quantities with a unit need quotes, as in diameter = \"20 mm\"";
   if (said.find("redefine") != std::string::npos) remedy = "give each key and each section once";
   if (said.find("UTF-8") != std::string::npos || said.find("utf-8") != std::string::npos)
-    remedy = "save the file as UTF-8 text";
+    remedy = "save the file as UTF-8 text; what a result file holds is told by perfora show";
   throw InputError({file, static_cast<int>(error.source().begin.line), ""}, "not valid TOML: " + said, "", remedy);
 }
 

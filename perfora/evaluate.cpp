@@ -1,7 +1,10 @@
 // What is here: one evaluation for users of the library. What is not: its way (optimize/evaluate/evaluation.cpp).
 #include "perfora/evaluate.h"
 
+#include <fmt/format.h>
+
 #include "io/memory.h"
+#include "io/text.h"
 #include "optimize/evaluate/run_output.h"
 #include "optimize/search/objective.h"
 #include "perfora/inside.h"
@@ -11,6 +14,7 @@ namespace perfora {
 
 Evaluation evaluate(const Design& design, const EvaluateOptions& options) {
   return at_boundary([&] {
+    refuse_negative(options.replicate);
     refuse_resume_with_force(options.resume, options.force);
     const optimize::DesignFile file = Inside::file(design).clone();
     ProgressRelay relay(options.progress, options.stop);
@@ -44,10 +48,17 @@ double score(const Design& design, const std::vector<Evaluation>& replicates) {
     if (replicates.empty())
       throw io::InputError({"score", 0, "replicates"}, "there is no evaluation", "", "give one or more");
     std::vector<results::Evaluation> measured;
+    const results::MeasuringFrame frame = wishing.measuring_frame();
     for (const Evaluation& replicate : replicates) {
       const results::Evaluation& all = Inside::evaluation(replicate);
-      measured.push_back(
-          results::measured_anew(all, wishing.measuring_frame(), all.summary.final_strain).value_or(all));
+      if (all.status == results::RunStatus::completed && frame.options.plateau == results::PlateauPlace::window &&
+          all.summary.final_strain < frame.options.plateau_end - results::strain_rounding)
+        throw io::InputError({"score", 0, "measures.plateau_end"},
+                             fmt::format("the curve ends at {} strain, before the window does at {}",
+                                         io::quantity(all.summary.final_strain, io::Dimension::ratio),
+                                         io::quantity(frame.options.plateau_end, io::Dimension::ratio)),
+                             "", "set target.window of the design, or evaluate further (loading.until)");
+      measured.push_back(results::measured_anew(all, frame, all.summary.final_strain).value_or(all));
     }
     std::vector<const results::Evaluation*> pointers;
     for (const results::Evaluation& one : measured) pointers.push_back(&one);

@@ -72,9 +72,11 @@ struct EvaluateOptions {
 Evaluation evaluate(const Design& design, const EvaluateOptions& options = {});
 
 /// What a search minimises (docs/user/theory.md, "Score"): how far the replicates of one design lie from what `design`
-/// wishes in [target]; 0: all of it is met. Whole curves are measured anew for this target, so that one run answers any
-/// wish. A replicate that failed or stopped makes it 750, worse than any that was simulated. Throws Error where nothing
-/// is wished, where there is no replicate, and for evaluations that were not made by the library.
+/// wishes in [target]. Of two designs that keep all wishes the flatter one has less: the distance to a wished stress
+/// and, unless target.weight.cap_ratio is 0, the cap ratio count as well. Whole curves are measured anew for this
+/// target, so that one run answers any wish. A replicate that failed or stopped makes it 750, worse than any that was
+/// simulated. Throws Error where nothing is wished, where there is no replicate, where a curve ends before the window
+/// does, and for evaluations that were not made by the library.
 double score(const Design& design, const std::vector<Evaluation>& replicates);
 
 }  // namespace perfora

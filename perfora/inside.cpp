@@ -113,6 +113,12 @@ void ProgressRelay::rethrow() const {
   if (thrown_) std::rethrow_exception(thrown_);
 }
 
+void refuse_negative(int replicate) {
+  if (replicate < 0)
+    throw io::InputError({"replicate", 0, ""}, std::to_string(replicate) + " is no replicate", "0, 1, 2, ...",
+                         "they are counted from 0");
+}
+
 void refuse_resume_with_force(bool resume, bool force) {
   if (resume && force)
     throw io::InputError({"resume", 0, ""}, "resume and force exclude each other", "", "give only one of them");

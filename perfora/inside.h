@@ -93,6 +93,8 @@ class ProgressRelay {
   double first_ = 0.0, last_ = -1.0;  ///< fractions of the part of the work that is under way; last_ < 0: none
 };
 
+/// Throws io::InputError for a replicate below 0.
+void refuse_negative(int replicate);
 /// Throws io::InputError when both are wanted.
 void refuse_resume_with_force(bool resume, bool force);
 /// `threads`, or one a processor.

@@ -82,6 +82,7 @@ double Packing::measure(const std::string& key) const {
 
 Packing pack(const Design& design, const PackOptions& options) {
   return at_boundary([&] {
+    refuse_negative(options.replicate);
     const optimize::DesignFile file = Inside::file(design).clone();
     static_cast<void>(file.validate(optimize::Purpose::block));
     static_cast<void>(optimize::check_cost(file, thread_count(options.threads), io::usable_memory_bytes()));

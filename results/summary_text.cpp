@@ -35,7 +35,8 @@ std::string verdict_text(const json& object) {
 
 std::string head_text(const json& object) {
   std::string text = verdict_text(object);
-  text += fmt::format("{}: {}\n", text_in(object, "status", "?"), text_in(object, "reason"));
+  const std::string reason = text_in(object, "reason");
+  text += fmt::format("{}{}{}\n", text_in(object, "status", "?"), reason.empty() ? "" : ": ", reason);
   std::string seeds;
   for (const auto& [name, value] : object_in(object, "seeds").items())
     if (value.is_number()) seeds += fmt::format("{}{} {}", seeds.empty() ? "" : ", ", name, value.dump());
@@ -113,7 +114,10 @@ std::string key_value_text(const std::string& key, const json& value, const KeyD
 /// Best and start design on seeds that the search did not use. `same`: the start is what is recommended.
 std::string finals_text(const json& finals, bool same) {
   const double pairs = number_in(finals, "pairs");
-  if (!(pairs > 0.0)) return "Best and start were not compared on fresh seeds\n";
+  if (!(pairs > 0.0)) {
+    const std::string why = text_in(finals, "not_compared");
+    return fmt::format("Best and start were not compared on fresh seeds{}{}\n", why.empty() ? "" : ": ", why);
+  }
   std::string text = fmt::format("On {} fresh seeds\n", io::count(pairs));
   for (const char* whose : {"best", "start"}) {
     if (same && std::string_view(whose) == "best") continue;

@@ -83,14 +83,19 @@ def evaluate(
     )
 
 
-def score(design: Union[Design, Changes, PathLike], replicates: Union[Evaluation, Iterable[Evaluation]]) -> float:
+def score(design: Union[Design, Changes, PathLike], replicates: Union[Evaluation, Run, Iterable[Union[Evaluation, Run]]]) -> float:
     """What a search minimises (docs/user/theory.md, "Score"): how far evaluations of one design lie from what `design`
-    wishes in [target]; 0: all of it is met. Curves are measured anew for this target: one run answers any wish.
+    wishes in [target]. Of two designs that keep all wishes the flatter one has less: the distance to a wished stress
+    and, unless target.weight.cap_ratio is 0, the cap ratio count as well. Curves are measured anew for this target:
+    one run answers any wish.
 
     replicates: an evaluation, or several of other packings. One that failed or stopped makes the score 750, worse than
-    any that was simulated. Raises InputError where nothing is wished.
+    any that was simulated. Raises InputError where nothing is wished and where a curve ends before the window does.
     """
-    return _core.score(design, [replicates] if isinstance(replicates, Evaluation) else list(replicates))
+    if isinstance(replicates, (str, os.PathLike)):
+        raise TypeError(f"{replicates!r} is a path; read it first: perfora.read(path)")
+    several = [replicates] if isinstance(replicates, (Evaluation, Run)) else list(replicates)
+    return _core.score(design, [one.evaluation if isinstance(one, Run) else one for one in several])
 
 
 def run_campaign(

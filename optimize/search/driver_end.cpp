@@ -126,7 +126,10 @@ bool Driver::View::run_verification() {
   plan.finals.replicates = count;
   plan.finals.start_replicates = study.keys.start_final_replicates();
   plan.finals.fidelity = study.verify_fidelity;
-  const int first = plan.finals.first = study.keys.replicates;
+  // Behind the seeds of the map as well: they have chosen what the search began with.
+  const int chosen_by =
+      plan.map.empty() ? study.keys.replicates : std::max(study.keys.replicates, study.keys.map.replicates);
+  const int first = plan.finals.first = chosen_by;
   if (count == 0 || !plan.best) return true;
   std::vector<const Candidate*> designs;
   for (const Finalist& one : plan.finalists)

@@ -29,7 +29,7 @@ std::vector<ParetoMember> known_designs(const Study& study, const Plan& plan) {
   for (const Trace& trace : plan.traces)
     for (const Visit& visit : trace.visits)
       if (visit.answered) add(visit, ++number);
-  if (study.map_fidelity == 0 && study.keys.map.replicates == study.keys.replicates)
+  if (study.map_fidelity == 0 && study.keys.map.replicates >= study.keys.replicates)
     for (const Visit& visit : plan.map) add(visit, 0);
   return known;
 }

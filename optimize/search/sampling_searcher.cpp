@@ -46,6 +46,7 @@ class SamplingSearcher final : public Searcher {
     problem = "no sampling is called so";
     return {};
   }
+  bool asks_at_once() const override { return true; }
   bool is_local(const std::string&) const override { return false; }
   std::optional<Refusal> refuse(const std::string&, int) const override { return std::nullopt; }
   std::vector<std::string> warnings(const std::string&, int, int, int) const override { return {}; }

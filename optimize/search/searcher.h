@@ -75,6 +75,8 @@ class Searcher {
   /// Whether it asks in batches, each to be journalled before it runs and given back in SearchTask::batches. All tasks
   /// of a stage are then one search that shares the sum of their maxeval.
   virtual bool asks_in_batches() const { return false; }
+  /// Whether it asks for all points of a task at once.
+  virtual bool asks_at_once() const { return false; }
   /// Whether an algorithm begins at a given point and stays near it, so that it can be a second stage.
   virtual bool is_local(const std::string& algorithm) const = 0;
 

@@ -198,6 +198,13 @@ struct Reader {
           "one replicate a candidate: the score holds the scatter from packing to packing; final_replicates tells how "
           "much of the "
           "gain is real");
+    const bool mapped = study.keys.map.designs > 0 || !study.keys.map.from.empty();
+    if (mapped && study.map_fidelity == 0 && study.keys.replicates < study.keys.map.replicates)
+      warnings.push_back(
+          fmt::format("study.replicates = {} is below map.replicates = {}: the search goes by the first packings of a "
+                      "mapped design "
+                      "alone; give both the same number",
+                      study.keys.replicates, study.keys.map.replicates));
     if (study.keys.final_replicates < results::fewest_replicates)
       warnings.push_back(fmt::format("final_replicates below {}: the verdict cannot say that the wish is met",
                                      results::fewest_replicates));

@@ -62,18 +62,22 @@ std::vector<results::Reach> reach_of(const StudyRun& run) {
   return all;
 }
 
-json finals_json(const Finals& finals) {
+json finals_json(const Plan& plan) {
+  const Finals& finals = plan.finals;
   if (finals.replicates == 0 || finals.best.replicates == 0) return nullptr;
-  return {{"replicates", finals.replicates},
-          {"pairs", finals.pairs},
-          {"best", score_json(finals.best)},
-          {"start", score_json(finals.start)},
-          {"best_scores", finals.best_scores},
-          {"start_scores", finals.start_scores},
-          {"gain", finals.pairs > 0 ? number(finals.gain) : json(nullptr)},
-          {"gain_standard_error", finals.pairs > 1 ? number(finals.gain_error) : json(nullptr)},
-          {"gain_confidence_95", finals.pairs > 1 ? number(finals.gain_interval) : json(nullptr)},
-          {"significant", finals.significant}};
+  json found = {{"replicates", finals.replicates},
+                {"pairs", finals.pairs},
+                {"best", score_json(finals.best)},
+                {"start", score_json(finals.start)},
+                {"best_scores", finals.best_scores},
+                {"start_scores", finals.start_scores},
+                {"gain", finals.pairs > 0 ? number(finals.gain) : json(nullptr)},
+                {"gain_standard_error", finals.pairs > 1 ? number(finals.gain_error) : json(nullptr)},
+                {"gain_confidence_95", finals.pairs > 1 ? number(finals.gain_interval) : json(nullptr)},
+                {"significant", finals.significant}};
+  if (plan.start.candidate && plan.start.candidate->violation > 0.0)
+    found["not_compared"] = "the start breaks a constraint";
+  return found;
 }
 
 json arms_json(const StudyRun& run) {
@@ -218,7 +222,7 @@ json to_json(StudyRun& run) {
   const Candidate* start = plan.start.candidate;
   record["start"] = start ? design_values(study, *start) : json(nullptr);
   record["start_score"] = plan.start.detail.valid ? number(plan.start.score) : json(nullptr);
-  record["finals"] = finals_json(plan.finals);
+  record["finals"] = finals_json(plan);
   record.update(end_json(run));
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   if (plan.finished && study.keys.algorithm == "model") record["model"] = model_of(run);

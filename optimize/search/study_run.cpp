@@ -36,6 +36,11 @@ bool may_change(const Difference& one) {
 /// How often the surroundings of a run cost more than the run itself: a limit of time is kept by this much.
 constexpr double margin = 1.2;
 
+/// Whether a replicate is one of the verification.
+bool is_final(const Plan& plan, int replicate) {
+  return plan.finals.replicates > 0 && replicate >= plan.finals.first;
+}
+
 /// What is asked first says it.
 std::string stage_now(const Plan& plan, const Study& study) {
   if (plan.wanted.empty()) return plan.finished ? "finished" : "waiting";
@@ -43,7 +48,7 @@ std::string stage_now(const Plan& plan, const Study& study) {
   if (replicate >= first_confirming_replicate) return "confirmation";
   if (replicate >= first_race_replicate) return "race";
   if (study.keys.map.designs > 0 && !plan.map_finished) return "map";
-  return replicate >= study.keys.replicates ? "verification" : "search";
+  return is_final(plan, replicate) ? "verification" : "search";
 }
 
 }  // namespace
@@ -52,6 +57,7 @@ int useful_workers(const Study& study, int asked) {
   const StudyKeys& keys = study.keys;
   std::int64_t parallel = static_cast<std::int64_t>(study.arms.size()) * keys.replicates;
   if (study.searcher->asks_in_batches()) parallel = std::max(parallel, std::int64_t{keys.batch} * keys.replicates);
+  if (study.searcher->asks_at_once()) parallel = std::max(parallel, std::int64_t{keys.maxeval} * keys.replicates);
   parallel = std::max(parallel, std::int64_t{keys.map.designs} * keys.map.replicates);
   parallel = std::max(parallel, std::int64_t{keys.race.finalists} * keys.race.replicates);
   return workers_for(asked, study.keys.execution.workers, parallel);
@@ -156,7 +162,7 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
   const int replicate = asked.request.replicate;
   const char* stage = replicate >= first_confirming_replicate ? "confirming "
                       : replicate >= first_race_replicate     ? "race "
-                      : replicate >= study_.keys.replicates   ? "final "
+                      : is_final(plan_, replicate)            ? "final "
                                                               : "";
   const bool scored = asked.request.fidelity == study_.fidelities.front().name;
   if (*stage == '\0' && scored && static_cast<int>(all.size()) == study_.keys.replicates) {
@@ -164,10 +170,7 @@ std::string StudyRun::on_answer(const Asked& asked, const Evaluation& evaluation
     what += score.valid ? fmt::format(", score {:.4g}", score.value) : ", no score";
   }
   const std::int64_t most = planned_.runs(), done = most - remaining();
-  const int number = replicate >= first_confirming_replicate ? replicate - first_confirming_replicate
-                     : replicate >= first_race_replicate     ? replicate - first_race_replicate
-                                                             : replicate;
-  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}", done, most, asked.label, stage, number + 1,
+  return fmt::format("evaluation {} of at most {}: {}, {}replicate {}: {}", done, most, asked.label, stage, replicate,
                      what);
 }
 

@@ -11,6 +11,21 @@ using ::testing::HasSubstr;
 
 class ExportAndDraw : public CommandLine {};
 
+// What would be ignored is refused; a design that is drawn obeys.
+TEST_F(ExportAndDraw, KeysOfADesignAreRefusedBesideResults) {
+  ASSERT_EQ(run("pack d.toml -o p.h5").exit_code, 0);
+  for (const char* command : {"show p.h5 --set layout.diameter=5mm", "report p.h5 --seed 2", "plot p.h5 --set a.b=1",
+                              "export p.h5 --csv --packing-seed 3"}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 1) << command;
+    EXPECT_THAT(outcome.error, HasSubstr("changes a design, and results are taken as they are")) << command;
+  }
+  EXPECT_EQ(run("plot d.toml --set layout.diameter=5mm -o a.svg").exit_code, 0);
+  EXPECT_EQ(run("plot d.toml -o b.svg").exit_code, 0);
+  EXPECT_NE(read_text(folder_ / "a.svg"), read_text(folder_ / "b.svg"));
+  EXPECT_THAT(run("plot d.toml --set layout.diametre=5mm -o c.svg").error, HasSubstr("did you mean layout.diameter"));
+}
+
 TEST_F(ExportAndDraw, SeveralFormatsAtOnce) {
   ASSERT_EQ(run("evaluate d.toml -o r.h5 --threads 1 --set output.frame_data=all").exit_code, 0);
   const Outcome exported = run("export r.h5 --lammps-dump --csv --vtk --axis strain -o one --json");

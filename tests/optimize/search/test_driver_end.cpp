@@ -2,6 +2,7 @@
 // is not: the search before (test_driver.cpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "optimize/search/driver.h"
@@ -40,6 +41,23 @@ TEST_F(DriverEnd, TheRaceHalvesOnPairedSeeds) {
   EXPECT_EQ(plan.finalists[0].score.replicates, 2 + 4);
   EXPECT_EQ(plan.finalists[7].score.replicates, 2 + 2);
   EXPECT_EQ(plan.verified.size(), 3U);
+}
+
+// What a map has seen has chosen what the search began with: the verification begins behind it.
+TEST_F(DriverEnd, FreshSeedsLieBehindThoseOfTheMap) {
+  const std::string keys = "algorithm = \"sobol\"\nmaxeval = 3\nreplicates = 1\nfinal_replicates = 3";
+  for (const bool mapped : {false, true}) {
+    const Study one = study(keys, mapped ? "[map]\ndesigns = 4\nreplicates = 3\n" : "");
+    Driver driver(one);
+    Answers answers;
+    const Plan plan = search_to_end(driver, answers, fake_evaluation);
+    EXPECT_EQ(plan.finals.first, mapped ? 3 : 1);
+    EXPECT_EQ(plan.finals.best.replicates, 3);
+    const auto told = [](const std::string& warning) {
+      return warning.find("study.replicates = 1 is below map.replicates = 3") != std::string::npos;
+    };
+    EXPECT_EQ(std::any_of(one.warnings.begin(), one.warnings.end(), told), mapped);
+  }
 }
 
 // Best seen is a fluke more often than not: a design that only the seeds of the search like loses the race.

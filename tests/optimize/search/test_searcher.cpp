@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "optimize/search/driver.h"
+#include "optimize/search/study_run.h"
 #include "tests/optimize/search/study_support.h"
 
 namespace perfora::optimize {
@@ -206,6 +207,19 @@ TEST_F(SearcherTest, ObservedDesignsAreOrderedByWhatTheyAre) {
 
 TEST(Points, LieOnAGrid) {
   EXPECT_EQ(on_grid({0.5, 0.3, -0.1, 1.2}), (std::vector<double>{0.5, 1229.0 / 4096.0, 0.0, 1.0}));
+}
+
+TEST(UsefulWorkers, AreAsManyAsPointsThatAreAskedAtOnce) {
+  const StudyFolder folder;
+  const auto useful = [&](const std::string& algorithm) {
+    return useful_workers(read_study(folder.file(
+                              "s.toml", study_text("maxeval = 12\nreplicates = 2\nalgorithm = \"" + algorithm + "\""))),
+                          100);
+  };
+  EXPECT_EQ(useful("sobol"), 24);
+  EXPECT_EQ(useful("random"), 24);
+  EXPECT_EQ(useful("model"), 8) << "a batch of four";
+  EXPECT_EQ(useful("GN_DIRECT_L"), 2);
 }
 
 }  // namespace
