@@ -185,8 +185,12 @@ def by_optuna(program, name, shape, keys, runs):
     return {"arm": best[1], "point": best[2], "runs": spent, "note": ""} if best else {"runs": spent, "note": "none"}
 
 
+def variant_name(name, replicates, mapped):
+    return f"{name}:{replicates}" + (":map" if mapped else "")
+
+
 def methods(shape, only):
-    """Name, replicates, whether it begins with the map."""
+    """Name, replicates, whether it begins with the map. `only`: names, or names of variants ("LN_SBPLX:3:map")."""
     names = [("model", 1, True), ("model", 2, True)]
     for name in GLOBAL + LOCAL + ["random", "sobol", "optuna tpe", "optuna cmaes"]:
         if name == "LN_NEWUOA_BOUND" and shape["variables"] < 2 or name == "GN_AGS" and shape["variables"] > 10:
@@ -195,7 +199,7 @@ def methods(shape, only):
             names.append((name, replicates, False))
             if name in GLOBAL + LOCAL:
                 names.append((name, replicates, True))
-    return [m for m in names if not only or m[0] in only]
+    return [m for m in names if not only or m[0] in only or variant_name(*m) in only]
 
 
 def truth_of(program, target, result, first=True):
@@ -237,7 +241,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=30)
     parser.add_argument("--targets", type=int, default=3)
     parser.add_argument("--emulators", nargs="+", default=["forest", "process"])
-    parser.add_argument("--methods", nargs="*", default=[], help="these alone")
+    parser.add_argument("--methods", nargs="*", default=[], help="these alone; NAME:REPLICATES or NAME:REPLICATES:map: one variant alone")
     args = parser.parse_args()
     program = Program(args.program, args.study)
     runs, names = [], []
