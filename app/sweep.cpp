@@ -59,8 +59,9 @@ int sweep_designs(const SweepFlags& flags) {
   const auto record = optimize::to_json(run);
   print_record(record, flags.common.json);
   if (run.status() != results::RunStatus::stopped)
-    io::log_info(fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, picture{} sweep.png{})",
-                             options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));
+    io::log_info(
+        fmt::format("written: {} (cases.csv, runs.csv, curves.csv, result.json, report.html, picture{} sweep.png{})",
+                    options.folder.string(), collapse ? "s" : "", collapse ? " and collapse.png" : ""));
   return say_how_work_ended(run.status(), run.troubles(), options.folder);
 }
 

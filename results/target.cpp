@@ -301,6 +301,14 @@ std::vector<std::string> warnings(const Target& target) {
         told.push_back(fmt::format(
             "the wished plateau, {} at least, lies above target.limit.{}, {}: no block can keep both",
             io::quantity(lowest, io::Dimension::stress), cap, io::quantity(wish.high, io::Dimension::stress)));
+  if (const auto& limit = target.limits[place_of("plateau_stress")]; target.plateau_stress > 0.0 && !limit.empty()) {
+    const double highest = target.plateau_stress * (1.0 + target.tolerance);
+    for (const Wish& wish : limits(target))
+      if (std::string_view(wish.measure->key) == "plateau_stress" && (lowest > wish.high || highest < wish.low))
+        told.push_back(fmt::format(
+            "the wished plateau, {}, and target.limit.plateau_stress have no stress in common: no block can keep both",
+            io::quantities({lowest, highest}, io::Dimension::stress, " to ")));
+  }
   if (target.has_curve())
     look("target.curve", *std::max_element(target.curve_points.begin(), target.curve_points.end()));
   return told;

@@ -108,6 +108,18 @@ TEST(Target, RefusesWhatMakesNoSense) {
   }
 }
 
+TEST(Target, AWishAndALimitThatExcludeEachOtherAreTold) {
+  const auto told = [](const std::string& limit) {
+    const Read read("[target]\nplateau_stress = \"10 MPa\"\nlimit.plateau_stress = " + limit + "\n");
+    int count = 0;
+    for (const std::string& warning : warnings(read.target)) count += warning.find("in common") != std::string::npos;
+    return count;
+  };
+  EXPECT_EQ(told("[\"1 MPa\", \"2 MPa\"]"), 1);  // 8 to 12 MPa are wished
+  EXPECT_EQ(told("[\"1 MPa\", \"9 MPa\"]"), 0);
+  EXPECT_EQ(told("[\"13 MPa\", \"20 MPa\"]"), 1);
+}
+
 TEST(Target, AStressUpToAStrainIsAPair) {
   const std::pair<const char*, const char*> cases[] = {
       {"\"3 MPa\"", "found the text \"3 MPa\"; [ratio, stress] is wanted, such as [\"25 %\", \"2 MPa\"]"},
