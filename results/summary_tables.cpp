@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/text.h"
+#include "results/interval.h"
 #include "results/summary_parts.h"
 
 namespace perfora::results {
@@ -118,6 +119,10 @@ std::string tolerance_table(const json& tolerance) {
   };
   add("undisturbed", required_object(tolerance, "undisturbed"));
   for (const json& one : required_list(tolerance, "deviations")) add(text_in(entry(one), "label"), one);
+  const double blocks = number_in(required_object(tolerance, "undisturbed"), "blocks");
+  if (blocks < fewest_replicates)
+    text += fmt::format("{} block{} of each: nothing is shown with fewer than {}; raise the replicates\n",
+                        io::count(blocks), blocks == 1.0 ? "" : "s", fewest_replicates);
   return text + "change: to the undisturbed block of the same seeds, mean +- half of its 95 % interval\n";
 }
 

@@ -78,8 +78,7 @@ struct Reader {
     if (use == StudyUse::search && study.keys.maxeval < 1 && !(study.keys.budget > 0.0))
       throw io::InputError(origin("study.maxeval"), "no number of candidates is given", "a whole number >= 1",
                            "add maxeval = 24 under [study], or budget = \"10 h\"; most algorithms never stop by "
-                           "themselves; what a map gives "
-                           "without a search is told by perfora map STUDY");
+                           "themselves; what a map gives without a search is told by perfora map STUDY");
     refuse_skip(study.keys.execution, origin("study.on_trouble"));
     set_target(start);
     set_window(start);
@@ -202,8 +201,7 @@ struct Reader {
     if (mapped && study.map_fidelity == 0 && study.keys.replicates < study.keys.map.replicates)
       warnings.push_back(
           fmt::format("study.replicates = {} is below map.replicates = {}: the search goes by the first packings of a "
-                      "mapped design "
-                      "alone; give both the same number",
+                      "mapped design alone; give both the same number",
                       study.keys.replicates, study.keys.map.replicates));
     if (study.keys.final_replicates < results::fewest_replicates)
       warnings.push_back(fmt::format("final_replicates below {}: the verdict cannot say that the wish is met",
