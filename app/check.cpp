@@ -82,7 +82,11 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
     object["warnings"] = warnings;
     print_json(object);
   } else {
-    print_text(fmt::format("{}: a valid {}\n", flags.file, kind) + results::estimate_text(expected, whose) + plan_text);
+    const std::string but = warnings.empty()       ? ""
+                            : warnings.size() == 1 ? ", with a warning"
+                                                   : fmt::format(", with {} warnings", warnings.size());
+    print_text(fmt::format("{}: a valid {}{}\n", flags.file, kind, but) + results::estimate_text(expected, whose) +
+               plan_text);
   }
   log_warnings(warnings);
   return exit_ok;

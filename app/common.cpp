@@ -132,6 +132,9 @@ int CommonFlags::thread_count(int otherwise) const {
 double CommonFlags::memory_allowed() const {
   if (memory.empty()) return io::usable_memory_bytes();
   const io::Origin origin{"--memory", 0, ""};
+  if (memory.find_first_not_of("0123456789.") == std::string::npos)
+    throw io::InputError(origin, memory + " has no unit", "a size such as \"24 GB\"",
+                         fmt::format("write \"{} GB\"", memory));
   const double bytes = io::parse_quantity(io::Value{memory}, io::Dimension::memory, origin);
   if (!(bytes > 0.0)) throw io::InputError(origin, memory + " is no memory", "a size such as \"24 GB\"");
   return bytes;

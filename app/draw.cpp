@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct DrawFlags {
   CommonFlags common;
   std::string input, output, title;
+  std::vector<std::string> notes;
 };
 
 std::string lower(std::string text) {
@@ -72,6 +73,13 @@ report::BlockSheet sheet_of_result(const fs::path& path) {
   return sheet;
 }
 
+/// "mortar=C25/30" as a row of the title block, "C25/30" as one that is called a note.
+std::pair<std::string, std::string> note_of(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {"note", text};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 report::BlockSheet sheet_of_design(const DrawFlags& flags) {
   const optimize::DesignFile design(flags.input, flags.common.overrides());
   report::BlockSheet sheet;
@@ -93,6 +101,7 @@ int draw(const DrawFlags& flags) {
   const bool design = lower(input.extension().string()) == ".toml";
   report::BlockSheet sheet = design ? sheet_of_design(flags) : sheet_of_result(input);
   if (!flags.title.empty()) sheet.title = flags.title;
+  for (const std::string& note : flags.notes) sheet.notes.push_back(note_of(note));
   sheet.source = input.filename().string() + ", perfora " + io::program_version();
   const io::OutputLock lock = claim_new_output(output, flags.common.force);
   const report::Drawing drawing = report::draw_block_sheet(sheet);
@@ -111,6 +120,10 @@ void add_draw(CLI::App& program, int& exit_code) {
   command->add_option("FILE", flags->input, "Design file (.toml), or a run or packing file (.h5)")->required();
   command->add_option("-o,--output", flags->output, "Drawing: .svg or .dxf (default: FILE's name + .svg)");
   command->add_option("--title", flags->title, "Title of the sheet (default: FILE's name)")->type_name("TEXT");
+  command
+      ->add_option("--note", flags->notes, "A row of the title block, such as \"mortar=C25/30, E 8 GPa\" (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=TEXT");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = draw(*flags); });
 }

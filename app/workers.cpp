@@ -58,10 +58,8 @@ void watch_on_terminal(optimize::WorkOptions& options, ProgressLine& line) {
   if (!io::rewrites_progress()) return;
   options.line_an_answer = false;
   options.progress = [&line](const optimize::WorkProgress& work) {
-    const auto all = static_cast<double>(work.known + work.remaining);
-    const double done = static_cast<double>(work.known) + work.under_way;
     const char* between = work.standing.empty() || work.simulation.empty() ? "" : " | ";
-    line.update(all > 0.0 ? done / all : 1.0, work.standing + between + work.simulation);
+    line.update(work.fraction(), work.standing + between + work.simulation);
   };
 }
 

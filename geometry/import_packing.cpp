@@ -127,11 +127,10 @@ Discs discs_of_csv(const PackingOptions& options) {
 std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& options, double unit, double width,
                            double height) {
   const auto span = [&](std::size_t axis) { return spheres.high[axis] - spheres.low[axis]; };
+  const auto alike = [](double found, double wanted) { return std::abs(found - wanted) <= 1e-3 * wanted; };
   const auto fits = [&](ImportPlane plane, double of_unit) {
-    constexpr double alike = 1e-3;
     const auto axes = axes_of(plane);
-    return std::abs(of_unit * span(axes[0]) - width) <= alike * width &&
-           std::abs(of_unit * span(axes[1]) - height) <= alike * height;
+    return alike(of_unit * span(axes[0]), width) && alike(of_unit * span(axes[1]), height);
   };
   constexpr const char* units[] = {"m", "cm", "mm", "um"};
   for (const auto& [plane, name] : planes)
@@ -143,8 +142,7 @@ std::string remedy_for_box(const LammpsSpheres& spheres, const PackingOptions& o
       if (fits(plane, metres(name)))
         return fmt::format("write file_plane = \"{}\" and file_unit = \"{}\"", plane_name, name);
   const auto axes = axes_of(options.file_plane);
-  constexpr double alike = 1e-3;
-  if (std::abs(unit * span(axes[0]) - width) <= alike * width && unit * span(axes[1]) < height)
+  if (alike(unit * span(axes[0]), width) && unit * span(axes[1]) < height)
     return "of a dump the last frame counts, which is compressed where the dump is of a run: write the block before it "
            "is "
            "loaded with perfora export RUN.h5 --lammps-dump --at 0, or give the cell the size of the box";

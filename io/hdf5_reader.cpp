@@ -21,6 +21,18 @@ constexpr const char* damaged_remedy = "write it again or take a copy";
   throw InputError({path.string(), 0, ""}, problem, wanted_file, remedy);
 }
 
+/// "give one of its files, such as out/best.h5": a folder of results given in place of one of them.
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
+    if (entry.path().extension() == ".h5" && entry.path().stem().extension() != ".xdmf")
+      names.push_back(entry.path().string());
+  refuse(folder, "is a folder",
+         names.empty() ? "check the path"
+                       : "give one of its files, such as " + *std::min_element(names.begin(), names.end()));
+}
+
 [[noreturn]] void refuse_damaged(const std::filesystem::path& path, const std::string& name) {
   refuse(path, name + " cannot be read: the file is damaged", damaged_remedy);
 }
@@ -194,6 +206,7 @@ bool is_proved(const OpenFile& file, const std::filesystem::path& path) {
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(std::filesystem::path path, Checksum checksum) : path_(std::move(path)) {
+  if (std::error_code none; std::filesystem::is_directory(path_, none)) refuse_folder(path_);
   const auto lock = hdf5_lock();
   const OpenFile file = open_regular(path_, wanted_file);
   if (file.status.st_size == 0) refuse(path_, "is empty", damaged_remedy);

@@ -156,6 +156,7 @@ std::string in_unit(double value, const PrintUnit& unit, std::string_view none) 
 }
 
 double scale_of(const PrintUnit& unit) {
+  if (unit.name == "deg") return as_printed(1.0, Dimension::angle);
   return std::strtod(fmt::format("1e{}", -unit.exponent).c_str(), nullptr);
 }
 

@@ -191,7 +191,13 @@ double parse_text(const std::string& written, Dimension dimension, const Origin&
   for (const Unit& candidate : known.units)
     if (candidate.name == unit) return scaled(decimal, candidate, text, origin);
   if (unit.front() == ',')
-    throw InputError(origin, fmt::format("{} has a decimal comma", in_quotes(written)), "", "write a decimal point");
+    throw InputError(origin, fmt::format("{} has a comma", in_quotes(written)), "",
+                     text.find_first_not_of("0123456789.,+-eE ") == std::string_view::npos
+                         ? fmt::format("write a decimal point, or a list in brackets: [{}]", text)
+                         : "write a decimal point");
+  if (unit.find(',') != std::string::npos)
+    throw InputError(origin, fmt::format("{} has a comma", in_quotes(written)), "",
+                     "a list stands in brackets, its texts in quotes: [\"5 mm\", \"3 mm\"]");
   std::vector<std::string> names;
   for (const Unit& candidate : known.units) names.emplace_back(candidate.name);
   const std::string nearest = nearest_name(unit, names);

@@ -83,8 +83,7 @@ std::function<void(const optimize::WorkProgress&)> ProgressRelay::work_callback(
     Progress told;
     told.finished = work.known;
     told.remaining = work.remaining;
-    const auto all = static_cast<double>(work.known + work.remaining);
-    told.fraction = all > 0.0 ? (static_cast<double>(work.known) + work.under_way) / all : 1.0;
+    told.fraction = work.fraction();
     told.text = work.simulation.empty() ? kind : kind + ": " + work.simulation;
     tell(std::move(told));
   };

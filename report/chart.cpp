@@ -26,7 +26,10 @@ std::vector<double> ticks_of(const Axis& axis, int wanted) {
     for (std::size_t k = 0; k < axis.choices.size(); ++k) ticks.push_back(static_cast<double>(k));
     return ticks;
   }
-  return axis.logarithmic ? decade_ticks(axis.low, axis.high) : nice_ticks(axis.low, axis.high, wanted);
+  std::vector<double> ticks =
+      axis.logarithmic ? decade_ticks(axis.low, axis.high) : nice_ticks(axis.low, axis.high, wanted);
+  if (axis.counts) std::erase_if(ticks, [](double tick) { return std::abs(tick - std::round(tick)) > 1e-6; });
+  return ticks;
 }
 
 std::vector<std::string> texts_of(const Axis& axis, const std::vector<double>& ticks) {

@@ -16,6 +16,7 @@ struct Axis {
   bool logarithmic = false;  ///< base 10; low must be positive
   /// Instead of round numbers: texts at 0, 1, 2, ... (a choice each).
   std::vector<std::string> choices = {};
+  bool counts = false;  ///< of things that are counted: ticks at whole numbers alone
 };
 
 /// Round numbers (1, 2 or 5 times a power of ten) from low to high, about `wanted` of them, at least two where low <

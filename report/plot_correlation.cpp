@@ -135,9 +135,9 @@ void plot_correlation(const CorrelationPicture& picture, const std::filesystem::
     const std::string text = fmt::format("{}  {}", k + 1, labels[k]);
     const TextStyle style{.size = 15.0};
     const std::size_t column = k / std::max<std::size_t>(1, legend_rows),
-                      line = k % std::max<std::size_t>(1, legend_rows);
+                      row = k % std::max<std::size_t>(1, legend_rows);
     canvas.text(page_margin + legend_column * static_cast<double>(column),
-                panels_end + legend_line * static_cast<double>(line), canvas.fit(text, legend_column - 20.0, style),
+                panels_end + legend_line * static_cast<double>(row), canvas.fit(text, legend_column - 20.0, style),
                 style);
   }
   canvas.write();

@@ -64,6 +64,29 @@ void draw_wall(Canvas& canvas, const Box& box, const geometry::PerforationLayout
   cairo_restore(context);
 }
 
+/// The number of each hole that has room for one, as drawings and messages count them; else of those beside the
+/// thinnest wall alone.
+void draw_numbers(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout,
+                  const geometry::ThinnestWall& wall) {
+  constexpr double least = 11.0, most = 18.0, beside_wall = 16.0, of_hole = 0.75;
+  const double scale = box.width / layout.width;
+  for (std::size_t k = 0; k < layout.perforations.size(); ++k) {
+    const geometry::Perforation& hole = layout.perforations[k];
+    const int number = static_cast<int>(k);
+    const double room = of_hole * hole.smallest_extent() * scale;
+    const bool named = number == wall.first || number == wall.second;
+    if (room < least && !named) continue;
+    const double size = std::clamp(room, named ? beside_wall : least, most);
+    const TextStyle style{
+        .size = size, .colour = named ? palette::ink : palette::soft_ink, .align = Align::centre, .halo = room < size};
+    const std::string text = std::to_string(k + 1);
+    const double half = 0.5 * canvas.text_width(text, style) + 4.0;  // a hole over an edge has it inside
+    const double x = std::clamp(hole.x * scale, half, box.width - half);
+    const double y = std::clamp(hole.y * scale, 0.7 * size, box.height - 0.7 * size);
+    canvas.text(box.x + x, box.bottom() - y + 0.36 * size, text, style);
+  }
+}
+
 /// Arrows onto the upper and the lower edge: the block is compressed upright.
 void draw_loading(Canvas& canvas, const Box& box) {
   for (int k = 1; k <= 3; ++k) {
@@ -102,6 +125,7 @@ void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter
                              : "the design before any run; orange: its thinnest wall; arrows: loading",
               {.size = 17.0, .colour = palette::soft_ink});
   draw_layout(canvas, box, layout);
+  draw_numbers(canvas, box, layout, wall);
   draw_wall(canvas, box, layout, wall);
   draw_loading(canvas, box);
   draw_scale_bar(canvas, box.right(), box.bottom() + arrow_room, scale);

@@ -162,7 +162,9 @@ void draw_search(Canvas& canvas, const results::StudyRecord& picture, const Box&
   int last = 1;
   for (const results::StudyPoint& evaluation : picture.points) last = std::max(last, evaluation.number);
   const std::vector<std::string> arms = arms_of(picture);
-  Chart chart(canvas, box, {0.0, last + std::max(1.0, 0.03 * last), "candidate"}, score_axis(picture));
+  Axis candidates{0.0, last + std::max(1.0, 0.03 * last), "candidate"};
+  candidates.counts = true;
+  Chart chart(canvas, box, candidates, score_axis(picture));
   chart.draw_axes();
   draw_incumbent(chart, picture, last);
   const double radius = last > 400 ? 2.6 : (last > 120 ? 3.6 : 5.0);

@@ -31,10 +31,16 @@ void draw_verdict(Canvas& canvas, double x, double y, double width, const std::s
     canvas.text(x, y, whole, style);
     return;
   }
-  const TextStyle small{.size = 15.0, .colour = colour, .bold = true};
-  const std::size_t end = first_line_end(canvas, whole, width, small);
-  canvas.text(x, y - 5.0, whole.substr(0, end), small);
-  canvas.text(x, y + 15.0, canvas.fit(whole.substr(std::min(end + 1, whole.size())), width, small), small);
+  // Two lines, as small as they must be and still can be read; what does not fit then is cut.
+  constexpr double largest = 15.0, smallest = 12.0;
+  for (TextStyle small{.size = largest, .colour = colour, .bold = true};; small.size -= 1.0) {
+    const std::size_t end = first_line_end(canvas, whole, width, small);
+    const std::string rest = whole.substr(std::min(end + 1, whole.size()));
+    if (canvas.text_width(rest, small) > width && small.size > smallest) continue;
+    canvas.text(x, y - 5.0, whole.substr(0, end), small);
+    canvas.text(x, y + 15.0, canvas.fit(rest, width, small), small);
+    return;
+  }
 }
 
 void draw_verdict(Canvas& canvas, double x, double y, double width, const nlohmann::json& summary) {

@@ -49,7 +49,7 @@ constexpr Label solution[] = {
 };
 
 constexpr Label search[] = {
-    {"score", "score (smaller is better)", none},
+    {"score", "search score (smaller is better)", none},
     {"target", "target", stress},
     {"evaluations", "evaluations in all", count},
     {"stop_reason", "stopped because", none},

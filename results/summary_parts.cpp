@@ -39,16 +39,10 @@ bool only_where_asked(std::string_view key) {
          key == "target_distance";
 }
 
-/// A largest efficiency at the end of the run is none yet: it still grows there.
-bool at_the_end(std::string_view key, double value, const json& object) {
-  constexpr double smoothing = 0.005;
-  return (key == "efficiency_strain" || key == "densification_onset") &&
-         value >= number_in(object, "final_strain") - smoothing;
-}
-
 /// What to print for a key; empty: nothing.
 std::string entry_text(const Label& label, const json& value, const json& object) {
-  if (value.is_number() && at_the_end(label.key, value.get<double>(), object)) return "not reached";
+  if (value.is_number() && still_grows(label.key, value.get<double>(), number_in(object, "final_strain")))
+    return "not reached";
   if (value.is_number()) return io::quantity(value.get<double>(), label.dimension);
   if (value.is_string()) return value.get<std::string>();
   return only_where_asked(label.key) ? "" : "not reached";
@@ -89,6 +83,11 @@ Pair pair_in(const json& object, const std::string& key) {
       !found->at(1).is_number())
     return {std::nan(""), std::nan("")};
   return {found->at(0).get<double>(), found->at(1).get<double>()};
+}
+
+bool still_grows(std::string_view key, double value, double final_strain) {
+  constexpr double smoothing = 0.005;
+  return (key == "efficiency_strain" || key == "densification_onset") && value >= final_strain - smoothing;
 }
 
 std::string line_text(std::string_view label, const std::string& value) {

@@ -34,6 +34,10 @@ struct Pair {
 };
 Pair pair_in(const nlohmann::json& object, const std::string& key);
 
+/// Whether a strain of largest efficiency (a measure, or its mean over runs) lies at the end of the run: efficiency
+/// still grows there, and summaries read "not reached".
+bool still_grows(std::string_view key, double value, double final_strain);
+
 /// "  label      value\n".
 std::string line_text(std::string_view label, const std::string& value);
 /// One line for each key that the object has, below a title; nothing where it has none. null reads "not reached".

@@ -30,6 +30,8 @@ std::string case_value(const json& one, const std::string& name) {
   const double mean = number_in(statistic, "mean"), half = number_in(statistic, "confidence_95");
   const double change = number_in(object_in(object_in(one, "changes"), name), "mean");
   if (!std::isfinite(mean)) return std::string(io::no_value);
+  if (still_grows(name, mean, number_in(object_in(object_in(one, "statistics"), "final_strain"), "mean")))
+    return "not reached";
   const io::Dimension dimension = dimension_of(name);
   std::string text =
       std::isfinite(half) ? io::quantities({mean, half}, dimension, " +- ") : io::quantity(mean, dimension);
@@ -49,12 +51,16 @@ std::vector<std::string> measures_of(const json& sweep) {
 
 std::string statistics_table(const json& statistics) {
   constexpr const char* columns[] = {"mean", "confidence_95", "standard_deviation", "minimum", "maximum"};
+  const double final_strain = number_in(object_in(statistics, "final_strain"), "mean");
   std::string text = fmt::format("  {:<26} {:>14} {:>14} {:>14} {:>14} {:>14} {:>5}\n", "over the replicates", "mean",
                                  "+- (95 %)", "deviation", "smallest", "largest", "n");
   for (const auto& [name, statistic] : statistics.items()) {
     text += fmt::format("  {:<26}", name);
-    for (const char* column : columns)
-      text += fmt::format(" {:>14}", io::quantity(number_in(entry(statistic), column), dimension_of(name)));
+    for (const char* column : columns) {
+      const double value = number_in(entry(statistic), column);
+      text += fmt::format(
+          " {:>14}", still_grows(name, value, final_strain) ? "not reached" : io::quantity(value, dimension_of(name)));
+    }
     text += fmt::format(" {:>5}\n", io::count(number_in(statistic, "count")));
   }
   return text;

@@ -49,6 +49,12 @@ struct WorkProgress {
   std::string standing;        ///< Campaign::standing()
   double under_way = 0.0;      ///< evaluations' worth of work that the workers have done of those they are at
   std::string simulation;      ///< how the one begun first stands: "strain 12.30 %, stress 210 kPa"; empty: not known
+
+  /// Of all evaluations, what is done of those under way included.
+  double fraction() const {
+    const auto all = static_cast<double>(known + remaining);
+    return all > 0.0 ? (static_cast<double>(known) + under_way) / all : 1.0;
+  }
 };
 
 /// How a folder's work is carried out.

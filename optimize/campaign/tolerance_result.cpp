@@ -73,7 +73,7 @@ json judged(const SweepRun& run, const SweepCase& one) {
 
 std::string csv_field(const json& value) {
   if (value.is_null()) return ",";
-  if (value.is_string()) return "," + io::csv_quoted(value.get<std::string>());
+  if (value.is_string()) return fmt::format(",{}", io::csv_quoted(value.get<std::string>()));
   return fmt::format(",{:.12g}", value.get<double>());
 }
 

@@ -130,7 +130,7 @@ class CalibrationRun final : public Campaign {
         for (const char* test : tests_of_a_point) {
           const std::string key = test_key(question.key, test, replicate);
           if (strength_in(key, answers)) continue;
-          asked.push_back({key, Request{question.sample, replicate}, key, std::filesystem::path()});
+          asked.push_back({key, Request{question.sample, replicate, 0.0, ""}, key, std::filesystem::path()});
           asked.back().request.material_test = test;
         }
     }

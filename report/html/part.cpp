@@ -11,6 +11,7 @@
 #include "results/json.h"
 #include "results/measure_table.h"
 #include "results/summary_numbers.h"
+#include "results/summary_parts.h"
 
 namespace perfora::report {
 
@@ -30,12 +31,14 @@ double short_number(double value) {
 
 json table_of(const json& summary, results::MeasureGroup group, const char* title) {
   json rows = json::array();
+  const double final_strain = results::summary_number(summary, "final_strain").value_or(NAN);
   for (const results::Measure& measure : results::measures()) {
     if (measure.group != group) continue;
     const auto value = results::summary_number(summary, measure.key);
     const json& holder = summary.contains(measure.key) ? summary : summary.value("summary", json::object());
     if (!value && !holder.contains(measure.key)) continue;
-    rows.push_back({measure.label, value ? io::quantity(*value, measure.dimension) : "not reached", measure.help});
+    const bool reached = value && !results::still_grows(measure.key, *value, final_strain);
+    rows.push_back({measure.label, reached ? io::quantity(*value, measure.dimension) : "not reached", measure.help});
   }
   return {{"title", title}, {"rows", rows}};
 }

@@ -9,6 +9,7 @@
 #include "report/sweep_picture.h"
 #include "results/json.h"
 #include "results/measure_table.h"
+#include "results/summary_parts.h"
 
 namespace perfora::report {
 
@@ -33,14 +34,17 @@ json case_rows(const results::SweepRecord& record) {
   json rows = json::array();
   for (const results::SweepCase& one : record.cases) {
     json cells = json::array();
+    const auto end = one.results.find("final_strain");
+    const double final_strain = end == one.results.end() ? NAN : end->second.mean;
     for (const std::string& name : record.measures) {
       const auto found = one.results.find(name);
       const results::Measure* measure = results::measure_called(name);
       const io::Dimension dimension = measure ? measure->dimension : io::Dimension::none;
       const double mean = found == one.results.end() ? NAN : found->second.mean;
       const double half = found == one.results.end() ? NAN : found->second.half_interval;
-      std::string text = io::quantity(mean, dimension, "not reached");
-      if (std::isfinite(mean) && std::isfinite(half)) text += " +- " + io::quantity(half, dimension);
+      const bool reached = !results::still_grows(name, mean, final_strain);
+      std::string text = io::quantity(reached ? mean : NAN, dimension, "not reached");
+      if (reached && std::isfinite(mean) && std::isfinite(half)) text += " +- " + io::quantity(half, dimension);
       cells.push_back({{"text", text}, {"value", results::number(mean)}});
     }
     rows.push_back({{"label", one.label}, {"can_run", one.can_run}, {"completed", one.completed}, {"results", cells}});

@@ -62,8 +62,10 @@ TEST_F(ExportAndDraw, ExportSaysWhatIsWrong) {
 // Drawn, read back and packed: the same holes.
 TEST_F(ExportAndDraw, ADrawingIsADesign) {
   ASSERT_EQ(run("draw d.toml -o b.dxf").exit_code, 0);
-  ASSERT_EQ(run("draw d.toml -o b.svg --title \"A & B\"").exit_code, 0);
-  EXPECT_THAT(read_text(folder_ / "b.svg"), HasSubstr("A &amp; B"));
+  ASSERT_EQ(run("draw d.toml -o b.svg --title \"A & B\" --note \"mortar=C25, E 8 GPa\" --note dry").exit_code, 0);
+  const std::string sheet = read_text(folder_ / "b.svg");
+  for (const char* words : {"A &amp; B", ">mortar<", ">C25, E 8 GPa<", ">note<", ">dry<"})
+    EXPECT_THAT(sheet, HasSubstr(words));
   EXPECT_THAT(run("draw d.toml -o b.svg").error, HasSubstr("--force"));
   EXPECT_THAT(run("draw d.toml -o b.png").error, HasSubstr(".svg or .dxf"));
   const json whole = json::parse(run("pack d.toml --json -o p.h5").output);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -188,7 +189,9 @@ TEST_F(Hdf5, MissingForeignAndEmptyFiles) {
   EXPECT_THAT(error_of(open), HasSubstr("is empty"));
   std::filesystem::remove(path);
   std::filesystem::create_directory(path);
-  EXPECT_THAT(error_of(open), HasSubstr("is a folder; a file written by perfora is wanted"));
+  EXPECT_THAT(error_of(open), HasSubstr("is a folder; a file written by perfora is wanted; check the path"));
+  for (const char* name : {"best.xdmf.h5", "later.h5", "best.h5"}) std::ofstream(path / name) << "x";
+  EXPECT_THAT(error_of(open), HasSubstr("give one of its files, such as " + (path / "best.h5").string()));
 }
 
 TEST_F(Hdf5, CutOffFilesAreNamedAtEveryLength) {

@@ -76,6 +76,13 @@ TEST(Text, SeveralValuesShareTheUnitOfTheLargest) {
   EXPECT_EQ(unit_for(NAN, Dimension::stress).name, "Pa");
 }
 
+// What is drawn stands beside the name of its unit: 504.4 um, 30 degrees of pi/6.
+TEST(Text, ScalesLeadToTheUnit) {
+  EXPECT_DOUBLE_EQ(scale_of(unit_for(0.5044e-3, Dimension::length)) * 0.5044e-3, 504.4);
+  EXPECT_DOUBLE_EQ(scale_of(unit_for(0.35, Dimension::ratio)), 100.0);
+  EXPECT_DOUBLE_EQ(scale_of(unit_for(0.2, Dimension::angle)) * std::numbers::pi / 6.0, 30.0);
+}
+
 // Four significant digits come back from every text, in the unit it names.
 TEST(Text, WhatIsPrintedIsRead) {
   for (const Dimension dimension :

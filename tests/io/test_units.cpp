@@ -12,6 +12,7 @@
 namespace perfora::io {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 
 const Origin here{"a.toml", 3, "s.k"};
@@ -72,7 +73,10 @@ TEST(Quantity, UnitOfAnotherDimensionListsTheAcceptedOnes) {
   EXPECT_EQ(said, "a.toml:3: s.k: \"kg\" in \"20 kg\" is no unit of a length; accepted are m, cm, mm, um, nm");
   EXPECT_THAT(input_error([] { quantity("2 mpa", Dimension::stress); }), HasSubstr("did you mean \"MPa\"?"));
   EXPECT_THAT(input_error([] { quantity("2 kg", Dimension::ratio); }), HasSubstr("accepted are % or no unit"));
-  EXPECT_THAT(input_error([] { quantity("2,5 mm", Dimension::length); }), HasSubstr("write a decimal point"));
+  EXPECT_THAT(input_error([] { quantity("2,5 mm", Dimension::length); }),
+              EndsWith("has a comma; write a decimal point"));
+  EXPECT_THAT(input_error([] { quantity("0.2,0.3", Dimension::ratio); }), EndsWith("a list in brackets: [0.2,0.3]"));
+  EXPECT_THAT(input_error([] { quantity("5mm,3mm", Dimension::length); }), HasSubstr("a list stands in brackets"));
 }
 
 TEST(Quantity, WithoutUnitSaysHowToWriteIt) {

@@ -99,6 +99,22 @@ TEST(SummaryText, Tables) {
                     ContainsRegex("place of the first bond .* 72.99, 35.41 mm"), ContainsRegex("yields in +tension")));
 }
 
+// Where efficiency still grows at the end of a run, its largest value is not that one.
+TEST(SummaryText, AnOnsetAtTheEndIsNone) {
+  json runs = ensemble;
+  runs["statistics"]["final_strain"] = {{"count", 4}, {"mean", 0.6}, {"confidence_95", 0.0}};
+  json& onset = runs["statistics"]["densification_onset"];
+  onset = {{"count", 4}, {"mean", 0.52}, {"confidence_95", 0.1}, {"minimum", 0.41}, {"maximum", 0.598}};
+  EXPECT_THAT(text_of(runs), ContainsRegex("densification_onset +52 % +10 % +- +41 % +not reached +4\n"));
+  onset["mean"] = 0.599;
+  EXPECT_THAT(text_of(runs), ContainsRegex("densification_onset +not reached +10 %"));
+  json cases = sweep;
+  cases["measures"] = {"densification_onset"};
+  cases["cases"][0]["statistics"] = {{"densification_onset", {{"mean", 0.599}, {"confidence_95", 0.01}}},
+                                     {"final_strain", {{"mean", 0.6}}}};
+  EXPECT_THAT(text_of(cases), ContainsRegex("the design itself +2 +not reached\n"));
+}
+
 TEST(SummaryText, StudyMaterialCheck) {
   EXPECT_THAT(
       text_of(study),
