@@ -66,8 +66,8 @@ void draw_wall(Canvas& canvas, const Box& box, const geometry::PerforationLayout
 
 /// The number of each hole that has room for one, as drawings and messages count them; else of those beside the
 /// thinnest wall alone.
-void draw_numbers(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout,
-                  const geometry::ThinnestWall& wall) {
+void draw_hole_numbers(Canvas& canvas, const Box& box, const geometry::PerforationLayout& layout,
+                       const geometry::ThinnestWall& wall) {
   constexpr double least = 11.0, most = 18.0, beside_wall = 16.0, of_hole = 0.75;
   const double scale = box.width / layout.width;
   for (std::size_t k = 0; k < layout.perforations.size(); ++k) {
@@ -125,7 +125,7 @@ void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter
                              : "the design before any run; orange: its thinnest wall; arrows: loading",
               {.size = 17.0, .colour = palette::soft_ink});
   draw_layout(canvas, box, layout);
-  draw_numbers(canvas, box, layout, wall);
+  draw_hole_numbers(canvas, box, layout, wall);
   draw_wall(canvas, box, layout, wall);
   draw_loading(canvas, box);
   draw_scale_bar(canvas, box.right(), box.bottom() + arrow_room, scale);
