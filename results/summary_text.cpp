@@ -66,8 +66,8 @@ std::string performance_text(const json& object) {
   const auto add = [&](const char* label, double value, Dimension dimension) {
     if (std::isfinite(value)) text += line_text(label, io::quantity(value, dimension));
   };
-  if (const double solution = number("solution_seconds"); std::isfinite(solution))
-    text += line_text("  of it for the solution", io::duration(solution));
+  if (const double solving = number("solution_seconds"); std::isfinite(solving))
+    text += line_text("  of it for the solution", io::duration(solving));
   add("steps per second", number("steps_per_second"), Dimension::none);
   add("time per bond and step", 1e-9 * number("ns_per_bond_step"), Dimension::time);
   add("largest memory", number("peak_memory"), Dimension::memory);
@@ -235,10 +235,10 @@ std::string calibrate_text(const json& object, const KeyDimension& key_dimension
 
 /// One line a number, with its scatter over the samples.
 std::string material_text(const json& object) {
-  const json& material = required_object(object, "material");
+  const json& tested = required_object(object, "material");
   std::string text = "Material\n";
   for (const Label& label : material_labels()) {
-    const json& statistic = object_in(material, std::string(label.key));
+    const json& statistic = object_in(tested, std::string(label.key));
     const double mean = number_in(statistic, "mean"), deviation = number_in(statistic, "standard_deviation");
     if (!std::isfinite(mean)) continue;
     std::string value = io::quantity(mean, label.dimension);
