@@ -98,9 +98,11 @@ std::string with_name(std::string number, const PrintUnit& unit) {
   return unit.name.empty() ? number : std::move(number) + " " + unit.name;
 }
 
+constexpr std::string_view degrees = "deg";
+
 /// Angles are stored in radians and read in degrees, the only unit that is no power of ten.
-double as_printed(double value, Dimension dimension) {
-  return dimension == Dimension::angle ? value * 180.0 / std::numbers::pi : value;
+double as_printed(double value, const PrintUnit& unit) {
+  return unit.name == degrees ? value * 180.0 / std::numbers::pi : value;
 }
 
 std::string escaped(std::string_view text) {
@@ -140,7 +142,7 @@ std::string list_literal(const ValueList& list, Digits digits) {
 
 PrintUnit unit_for(double largest, Dimension dimension) {
   if (dimension == Dimension::ratio) return {"%", -2};
-  if (dimension == Dimension::angle) return {"deg", 0};
+  if (dimension == Dimension::angle) return {std::string(degrees), 0};
   const Prefixes prefixes = prefixes_of(dimension);
   const bool sized = std::isfinite(largest) && largest != 0.0;
   const int power = sized ? Rounded(largest).exponent : 0;
@@ -151,32 +153,30 @@ PrintUnit unit_for(double largest, Dimension dimension) {
 }
 
 std::string in_unit(double value, const PrintUnit& unit, std::string_view none) {
-  return std::isfinite(value) ? with_name(without_name(value, unit.exponent, none), unit)
-                              : without_name(value, unit.exponent, none);
+  std::string text = without_name(as_printed(value, unit), unit.exponent, none);
+  return std::isfinite(value) ? with_name(std::move(text), unit) : text;
 }
 
 double scale_of(const PrintUnit& unit) {
-  if (unit.name == "deg") return as_printed(1.0, Dimension::angle);
-  return std::strtod(fmt::format("1e{}", -unit.exponent).c_str(), nullptr);
+  return as_printed(std::strtod(fmt::format("1e{}", -unit.exponent).c_str(), nullptr), unit);
 }
 
 std::string quantity(double value, Dimension dimension, std::string_view none) {
   if (dimension == Dimension::count) return count(value, none);
-  const double shown = as_printed(value, dimension);
-  return in_unit(shown, unit_for(shown, dimension), none);
+  return in_unit(value, unit_for(value, dimension), none);
 }
 
 std::string quantities(const std::vector<double>& values, Dimension dimension, std::string_view between,
                        std::string_view none) {
   double largest = 0.0;
   for (const double value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(as_printed(value, dimension)));
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   const PrintUnit unit = unit_for(largest, dimension);
   std::string text;
   bool any = false;
   for (const double& value : values) {
     if (&value != values.data()) text += between;
-    text += without_name(as_printed(value, dimension), unit.exponent, none);
+    text += without_name(as_printed(value, unit), unit.exponent, none);
     any = any || std::isfinite(value);
   }
   return any ? with_name(std::move(text), unit) : text;

@@ -81,6 +81,7 @@ TEST(Text, ScalesLeadToTheUnit) {
   EXPECT_DOUBLE_EQ(scale_of(unit_for(0.5044e-3, Dimension::length)) * 0.5044e-3, 504.4);
   EXPECT_DOUBLE_EQ(scale_of(unit_for(0.35, Dimension::ratio)), 100.0);
   EXPECT_DOUBLE_EQ(scale_of(unit_for(0.2, Dimension::angle)) * std::numbers::pi / 6.0, 30.0);
+  EXPECT_EQ(in_unit(std::numbers::pi / 6.0, unit_for(0.2, Dimension::angle)), "30 deg");
 }
 
 // Four significant digits come back from every text, in the unit it names.
