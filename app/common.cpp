@@ -38,10 +38,8 @@ extern "C" void ask_to_stop(int) {
   ::_exit(exit_stopped);
 }
 
-/// Whole numbers from 0 (derive from --seed) to 2^53 - 1 (exact in JSON).
-CLI::Validator seed_range() {
-  return CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1).description("");
-}
+/// The largest seed: 2^53 - 1, exact in JSON.
+constexpr std::int64_t largest_seed = (std::int64_t{1} << 53) - 1;
 
 /// What is wrong with a flag that changes a design, beside results.
 std::string of_another_command(const std::string& flag) {
@@ -59,6 +57,26 @@ CLI::Validator positive_number(bool zero) {
         const bool good =
             CLI::detail::lexical_cast(text, number) && (zero ? number >= 0.0 : number > 0.0) && std::isfinite(number);
         return good ? std::string() : fmt::format("\"{}\" is no number {}", text, zero ? "of 0 or more" : "above 0");
+      },
+      "");
+}
+
+CLI::Validator number_within(double least, double largest) {
+  return CLI::Validator(
+      [least, largest](std::string& text) {
+        double number = 0.0;
+        const bool good = CLI::detail::lexical_cast(text, number) && number >= least && number <= largest;
+        return good ? std::string() : fmt::format("\"{}\" is no number from {} to {}", text, least, largest);
+      },
+      "");
+}
+
+CLI::Validator whole_number_within(std::int64_t least, std::int64_t largest) {
+  return CLI::Validator(
+      [least, largest](std::string& text) {
+        std::int64_t number = 0;
+        const bool good = CLI::detail::lexical_cast(text, number) && number >= least && number <= largest;
+        return good ? std::string() : fmt::format("\"{}\" is no whole number from {} to {}", text, least, largest);
       },
       "");
 }
@@ -159,7 +177,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
   if (uses == Uses::files_only) set->check(no_effect_on_results("--set"));
   auto add_seed_flag = [&](const std::string& name, std::vector<std::int64_t>& value, const std::string& help) {
     CLI::Option* seed = command.add_option(name, value, help)->group(design_group)->expected(1);
-    seed->check(seed_range())->type_name("N");
+    seed->check(whole_number_within(0, largest_seed))->type_name("N");  // 0: derive it from --seed
     if (uses == Uses::files_only) seed->check(no_effect_on_results(name));
   };
   add_seed_flag("--seed", flags.seed, "The number all random streams are derived from (default 1)");

@@ -68,6 +68,10 @@ CLI::Validator no_more_than_help();
 /// Refuses what is no number above zero (or zero, where `zero`).
 CLI::Validator positive_number(bool zero = false);
 
+/// Refuses what is no number, or no whole number, within these bounds, which belong to it.
+CLI::Validator number_within(double least, double largest);
+CLI::Validator whole_number_within(std::int64_t least, std::int64_t largest);
+
 /// --only: cases of a sweep by their labels; `what` follows "Only the cases that have TEXT in their name (repeatable)".
 void add_only_flag(CLI::App& command, std::vector<std::string>& only, const std::string& what = "");
 

@@ -195,7 +195,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
   command
       ->add_option("--replicates", flags->replicates,
                    "Evaluate N replicates: other packings and strength fields of the same design")
-      ->check(CLI::Range(1, most_replicates).description(""))
+      ->check(whole_number_within(1, most_replicates))
       ->type_name("N");
   command
       ->add_option("--wall-time", flags->wall_time,

@@ -113,7 +113,7 @@ void add_movie(CLI::App& program, int& exit_code) {
       ->type_name("DIR");
   command->add_option("--title", flags->title, "Heading (default: FILE's name)")->type_name("TEXT");
   command->add_option("--rate", flags->frames_per_second, "Frames a second of the film (default 8)")
-      ->check(CLI::Range(0.1, 120.0).description(""))
+      ->check(number_within(0.1, 120.0))
       ->type_name("N");
   add_common_flags(*command, flags->common, Uses::files_only);
   command->callback([flags, &exit_code] { exit_code = movie(*flags); });

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -47,19 +48,28 @@ int work(const SharedFlags& flags) {
     return exit_ok;
   }
   int evaluated = 0;
+  std::string under_way;
+  std::optional<ProgressLine> line;
   optimize::SharedWorkOptions options;
   options.patience = std::chrono::duration<double>(flags.wait);
   options.cancellation = stop_token();
+  options.progress = [&](const std::string& key, const results::Progress& progress) {
+    if (key != under_way) line.emplace(key, flags.common.quiet);
+    under_way = key;
+    line->update(progress.fraction, progress.text);
+  };
   options.delivered = [&](const std::string& key, const optimize::Answer& answer) {
     ++evaluated;
+    line.reset();
+    under_way.clear();
     io::log_info(fmt::format("{}: {}, {}", key,
                              answer.trouble.empty() ? results::status_name(answer.evaluation.status) : answer.trouble,
                              io::duration(answer.seconds)));
   };
   const optimize::SharedEnd end = optimize::work_for(
       flags.folder,
-      [&](const optimize::Request& request) {
-        return optimize::evaluate_request(request, threads, stop_token(), memory);
+      [&](const optimize::Request& request, const results::ProgressCallback& progress) {
+        return optimize::evaluate_request(request, threads, stop_token(), memory, progress);
       },
       options);
   switch (end) {

@@ -63,7 +63,7 @@ void add_test(CLI::App& program, int& exit_code) {
   command->add_option("-o,--output", flags->output, "File to write (default: MATERIAL's name + -test.h5)")
       ->type_name("T.h5");
   command->add_option("--replicates", flags->replicates, "Test N samples: other packings and strength fields")
-      ->check(CLI::Range(1, most_replicates).description(""))
+      ->check(whole_number_within(1, most_replicates))
       ->type_name("N");
   add_common_flags(*command, flags->common);
   command->callback([flags, &exit_code] { exit_code = test(*flags); });

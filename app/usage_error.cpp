@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <regex>
-
 #include "app/common.h"
 #include "io/error.h"
 
@@ -48,14 +45,6 @@ std::string first_line(const std::string& message) {
   return line;
 }
 
-/// CLI11's "--seed: Value abc not in range 0 to 9" as one says it.
-std::string plainly(const std::string& line) {
-  static const std::regex range("(--?[^ :]+): Value (.*) not in range (\\S+) to (\\S+)");
-  std::smatch parts;
-  if (!std::regex_match(line, parts, range)) return line;
-  return fmt::format("{}: \"{}\" is no number from {} to {}", parts.str(1), parts.str(2), parts.str(3), parts.str(4));
-}
-
 std::string suggestion(const std::string& nearest) {
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
@@ -90,7 +79,7 @@ int report_usage_error(const CLI::App& program, const CLI::ParseError& error) {
     text = unexpected_text(program, command);
     if (text.empty()) text = "a subcommand is needed: " + joined(subcommand_names(program));
   }
-  if (text.empty()) text = plainly(first_line(error.what()));
+  if (text.empty()) text = first_line(error.what());
   io::log_error(fmt::format("{}: {}; `{} --help` lists what can be given", where, text, where));
   return exit_input;
 }

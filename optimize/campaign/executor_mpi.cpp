@@ -29,6 +29,7 @@ enum Tag : int {
   cancel_tag = 2,  ///< to a worker: what it evaluates is not wanted any more. Empty
   end_tag = 3,     ///< to a worker: nothing more will come. Empty
   answer_tag = 4,  ///< from a worker: a record; with "leaving": true where a signal told it to stop
+  alive_tag = 5,   ///< from a worker, before its answer: a sign of life with how far it has come
 };
 
 /// Time a rank has to end an evaluation that is not wanted any more; it takes a second at most.
@@ -36,6 +37,8 @@ constexpr auto time_to_cancel = std::chrono::seconds(10);
 /// MPI waits by asking again and again, and would take a whole processor for it: both sides look this often instead.
 /// Evaluations take a second to hours.
 constexpr auto between_looks = std::chrono::milliseconds(2);
+/// How often a worker tells how far it has come.
+constexpr auto between_signs = std::chrono::seconds(1);
 
 void send_text(const std::string& text, int rank, Tag tag) {
   MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, rank, tag, MPI_COMM_WORLD);
@@ -63,26 +66,39 @@ std::string to_text(const json& record) {
   return record.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// Evaluates in a thread of its own, so that this one hears when the evaluation is not wanted any more.
+/// Evaluates in a thread of its own, so that this one hears when the evaluation is not wanted any more, and tells how
+/// far it has come.
 WorkerRecord evaluate_and_listen(const json& asked, const io::Cancellation& stop) {
   io::CancellationSource source;
   std::mutex mutex;
   std::condition_variable changed;
   bool done = false;
+  results::Progress progress;
   WorkerRecord said;
+  const auto note = [&](const results::Progress& now) {
+    const std::lock_guard guard(mutex);
+    progress = now;
+  };
   std::thread thread([&] {
     WorkerRecord made = evaluate_record(asked.at("request"), asked.at("threads").get<int>(), source.token(),
-                                        asked.at("memory").get<double>());
+                                        asked.at("memory").get<double>(), note);
     const std::lock_guard guard(mutex);
     said = std::move(made);
     done = true;
     changed.notify_all();
   });
   {
+    auto told = Clock::now();
     std::unique_lock guard(mutex);
     while (!changed.wait_for(guard, between_looks, [&] { return done; })) {
+      const bool tells = Clock::now() - told >= between_signs;
+      const std::string sign = tells ? to_text(sign_of_life(progress)) : "";
       guard.unlock();
       if (stop.requested() || receive_message(0, cancel_tag)) source.request();
+      if (tells) {
+        send_text(sign, 0, alive_tag);
+        told = Clock::now();
+      }
       guard.lock();
     }
   }
@@ -101,7 +117,8 @@ class MpiExecutor final : public Executor {
     threads_ = std::max(1, wanted.threads / workers_);
     limits_ = std::make_unique<TimeLimits>(threads_);
     jobs_.resize(static_cast<std::size_t>(workers_) + 1);
-    io::log_info(fmt::format("{} ranks that evaluate, of {} thread{}", workers_, threads_, threads_ == 1 ? "" : "s"));
+    io::log_info(fmt::format("{} rank{} to evaluate, of {} thread{} each", workers_, workers_ == 1 ? "" : "s", threads_,
+                             threads_ == 1 ? "" : "s"));
   }
 
   ~MpiExecutor() override { stop(); }
@@ -114,6 +131,7 @@ class MpiExecutor final : public Executor {
     const auto end = Clock::now() + timeout;
     while (!stopped_) {
       hand_out();
+      take_signs();
       while (const auto message = receive_message(MPI_ANY_SOURCE, answer_tag)) accept(*message);
       look_at_limits();
       if (!answers_.empty()) {
@@ -125,6 +143,13 @@ class MpiExecutor final : public Executor {
       std::this_thread::sleep_for(between_looks);
     }
     return std::nullopt;
+  }
+
+  std::vector<UnderWay> under_way() const override {
+    std::vector<UnderWay> all;
+    for (int rank = 1; rank <= workers_; ++rank)
+      if (busy(rank)) all.push_back({at(rank).key, seconds_of(at(rank)), at(rank).progress});
+    return all;
   }
 
   void stop() override {
@@ -140,6 +165,7 @@ class MpiExecutor final : public Executor {
       return false;
     };
     while (any_busy() && Clock::now() < end) {
+      take_signs();
       while (const auto message = receive_message(MPI_ANY_SOURCE, answer_tag)) set_state_after(*message);
       std::this_thread::sleep_for(between_looks);
     }
@@ -154,12 +180,14 @@ class MpiExecutor final : public Executor {
     Clock::time_point since = {};
     double time_limit = 0.0;  ///< s; 0: none
     bool cancelled = false;   ///< its time limit has passed
+    results::Progress progress = {};
     std::set<int> replicates = {};
   };
 
   MpiJob::RankState& state(int rank) { return job_.states()[static_cast<std::size_t>(rank)]; }
-  bool busy(int rank) { return state(rank) == MpiJob::RankState::busy; }
+  bool busy(int rank) const { return job_.states()[static_cast<std::size_t>(rank)] == MpiJob::RankState::busy; }
   Job& at(int rank) { return jobs_[static_cast<std::size_t>(rank)]; }
+  const Job& at(int rank) const { return jobs_[static_cast<std::size_t>(rank)]; }
 
   /// An idle rank: one that remembers the packing of this replicate where there is one; 0: none is idle.
   int idle_for(int replicate) {
@@ -193,6 +221,15 @@ class MpiExecutor final : public Executor {
                          {"threads", threads_},
                          {"memory", wanted_.memory / job_.workers_a_host()}}),
                 rank, ask_tag);
+    }
+  }
+
+  /// A rank sends its signs before its answer, and messages of one rank come in their order: one that comes after an
+  /// answer was asked for belongs to it.
+  void take_signs() {
+    while (const auto message = receive_message(MPI_ANY_SOURCE, alive_tag)) {
+      const json sign = json::parse(message->text, nullptr, false);
+      if (is_sign_of_life(sign)) at(message->rank).progress = told_by(sign);
     }
   }
 

@@ -16,10 +16,11 @@ using Clock = std::chrono::steady_clock;
 /// How often answers are looked for: network disks tell of nothing by themselves.
 constexpr auto look_for_answers = std::chrono::milliseconds(50);
 constexpr auto look_for_dead = std::chrono::seconds(10);
+constexpr auto look_for_progress = std::chrono::seconds(2);
 
 class SharedExecutor final : public Executor {
  public:
-  explicit SharedExecutor(const std::filesystem::path& work) : folder_(work), looked_(Clock::now()) {
+  explicit SharedExecutor(const std::filesystem::path& work) : folder_(work), looked_(Clock::now()), heard_(looked_) {
     folder_.begin();
     io::log_info(fmt::format("evaluations are left to `perfora work {}`, on any host that sees this folder",
                              std::filesystem::absolute(work).lexically_normal().string()));
@@ -48,10 +49,20 @@ class SharedExecutor final : public Executor {
         folder_.free_dead_claims();
         looked_ = Clock::now();
       }
+      if (Clock::now() - heard_ > look_for_progress) {
+        under_way_ = folder_.under_way();
+        heard_ = Clock::now();
+      }
       if (Clock::now() >= end) break;
       std::this_thread::sleep_for(look_for_answers);
     }
     return std::nullopt;
+  }
+
+  std::vector<UnderWay> under_way() const override {
+    std::vector<UnderWay> asked = under_way_;
+    std::erase_if(asked, [this](const UnderWay& one) { return !asked_.contains(one.key); });
+    return asked;
   }
 
   /// What is still asked stays where it is: what others have begun is not lost, and is found when the work goes on.
@@ -82,7 +93,8 @@ class SharedExecutor final : public Executor {
   SharedFolder folder_;
   std::map<std::string, Request> asked_;
   std::string taken_;
-  Clock::time_point looked_;
+  Clock::time_point looked_, heard_;
+  std::vector<UnderWay> under_way_;
   bool stopped_ = false;
 };
 

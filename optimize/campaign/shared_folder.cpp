@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/litter.h"
+#include "optimize/campaign/worker_record.h"
 
 namespace perfora::optimize {
 namespace {
@@ -69,7 +70,7 @@ SharedRequest shared_request_from_json(const json& record) {
 SharedFolder::SharedFolder(fs::path work) : work_(std::move(work)), shared_(work_ / "shared") {}
 
 void SharedFolder::begin() const {
-  for (const char* name : {"requests", "claims", "events"}) io::make_folders(shared_ / name);
+  for (const char* name : {"requests", "claims", "events", "progress"}) io::make_folders(shared_ / name);
 }
 
 void SharedFolder::publish(const std::string& key, const Request& request) const {
@@ -106,6 +107,26 @@ std::optional<Answer> SharedFolder::delivered(const std::string& key, const Requ
 void SharedFolder::remove_event(const std::string& key) const {
   std::error_code ignored;
   fs::remove(event_file(key), ignored);
+}
+
+std::vector<UnderWay> SharedFolder::under_way() const {
+  std::vector<UnderWay> found;
+  std::error_code ignored;
+  for (const std::string& key : names_in(shared_ / "progress")) {
+    if (!fs::exists(io::lock_file(claimed(key)), ignored)) continue;  // whoever told it has ended
+    const json sign = read_json(progress_file(key));
+    if (is_sign_of_life(sign)) found.push_back({key, sign.value("seconds", 0.0), told_by(sign)});
+  }
+  return found;
+}
+
+void SharedFolder::tell(const std::string& key, double seconds, const results::Progress& progress) const {
+  json sign = sign_of_life(progress);
+  sign["seconds"] = seconds;
+  try {
+    io::write_file(progress_file(key), sign.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  } catch (const std::exception&) {  // The work goes on; its answer is what has to arrive.
+  }
 }
 
 void SharedFolder::free_dead_claims() const {
@@ -173,6 +194,8 @@ void SharedFolder::deliver(const std::string& full_key, const Answer& answer) co
   else
     event["trouble"] = answer.trouble;
   io::write_file(event_file(answer.key), event.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  std::error_code ignored;
+  fs::remove(progress_file(answer.key), ignored);
   withdraw(answer.key);
 }
 

@@ -25,7 +25,8 @@ struct SharedRequest {
 ///   claims/KEY.lock       somebody evaluates it: a lock (io/lock.h), or a file that `perfora ask` made
 ///   events/KEY.json       an answer, renamed into place when it is whole; the holder of the journal appends it, then
 ///                         removes it
-/// Nothing is changed in place, and a file that is read twice is the same answer twice.
+///   progress/KEY.json     how far the evaluation has come; replaced every few seconds by whoever has the claim
+/// Nothing is changed in place, and an answer that is read twice is the same twice.
 class SharedFolder {
  public:
   /// `work`: the folder with the journal.
@@ -39,6 +40,8 @@ class SharedFolder {
   std::vector<std::string> events() const;  ///< keys of the answers that are there, sorted
   std::optional<Answer> delivered(const std::string& key, const Request& request) const;
   void remove_event(const std::string& key) const;
+  /// What is evaluated at present, as far as those who evaluate tell.
+  std::vector<UnderWay> under_way() const;
   /// Claims of processes of this host that have ended go, so that others can take what they had.
   void free_dead_claims() const;
   void end() const;  ///< removes all of it, once nothing is asked any more
@@ -52,6 +55,9 @@ class SharedFolder {
   std::optional<io::OutputLock> claim(const std::string& key) const;
   /// Holds it beyond the end of this process, until it is answered. `again`: also what is held already.
   bool claim_for_later(const std::string& key, bool again) const;
+  /// Tells how far a request that this process holds has come, `seconds` of wall time after it was taken. What cannot
+  /// be written is not told.
+  void tell(const std::string& key, double seconds, const results::Progress& progress) const;
   /// Writes the answer, then takes the request away. `full_key`: of the request that it answers.
   void deliver(const std::string& full_key, const Answer& answer) const;
   /// Ends what claim_for_later() began.
@@ -60,6 +66,7 @@ class SharedFolder {
  private:
   std::filesystem::path request_file(const std::string& key) const { return shared_ / "requests" / (key + ".json"); }
   std::filesystem::path event_file(const std::string& key) const { return shared_ / "events" / (key + ".json"); }
+  std::filesystem::path progress_file(const std::string& key) const { return shared_ / "progress" / (key + ".json"); }
   std::filesystem::path claimed(const std::string& key) const { return shared_ / "claims" / key; }
 
   std::filesystem::path work_, shared_;

@@ -15,12 +15,21 @@ using Clock = std::chrono::steady_clock;
 /// How often a new request is looked for.
 constexpr auto look_for_requests = std::chrono::milliseconds(100);
 
-Answer answer_of(const SharedRequest& shared, const Evaluate& evaluate) {
+Answer answer_of(const SharedFolder& folder, const SharedRequest& shared, const EvaluateAndTell& evaluate,
+                 const SharedWorkOptions& options) {
   Answer answer;
   answer.key = shared.key;
   const auto start = Clock::now();
+  auto told = start;
+  const auto tell = [&](const results::Progress& progress) {
+    if (options.progress) options.progress(shared.key, progress);
+    const auto now = Clock::now();
+    if (now - told < options.between_signs) return;
+    folder.tell(shared.key, std::chrono::duration<double>(now - start).count(), progress);
+    told = now;
+  };
   try {
-    answer.evaluation = evaluate(shared.request);
+    answer.evaluation = evaluate(shared.request, tell);
   } catch (const io::InputError& error) {
     answer.evaluation = failed_evaluation(error.what(), shared.request.replicate);
   } catch (const io::Cancelled&) {
@@ -35,13 +44,13 @@ Answer answer_of(const SharedRequest& shared, const Evaluate& evaluate) {
 }
 
 /// True: something was evaluated, or was to be.
-bool one_of(const SharedFolder& folder, const Evaluate& evaluate, const SharedWorkOptions& options) {
+bool one_of(const SharedFolder& folder, const EvaluateAndTell& evaluate, const SharedWorkOptions& options) {
   for (const std::string& key : folder.keys()) {
     const std::optional<io::OutputLock> claim = folder.claim(key);
     if (!claim) continue;
     const std::optional<SharedRequest> shared = folder.read(key);  // only now: it may have been answered before
     if (!shared) continue;
-    const Answer answer = answer_of(*shared, evaluate);
+    const Answer answer = answer_of(folder, *shared, evaluate, options);
     // Stopped in the middle: its run file stays, and whoever takes it next goes on there.
     if (answer.trouble.empty() && answer.evaluation.status == results::RunStatus::stopped) return true;
     folder.deliver(shared->full_key, answer);
@@ -53,7 +62,8 @@ bool one_of(const SharedFolder& folder, const Evaluate& evaluate, const SharedWo
 
 }  // namespace
 
-SharedEnd work_for(const std::filesystem::path& work, const Evaluate& evaluate, const SharedWorkOptions& options) {
+SharedEnd work_for(const std::filesystem::path& work, const EvaluateAndTell& evaluate,
+                   const SharedWorkOptions& options) {
   const SharedFolder folder(work);
   bool seen = false;
   auto since = Clock::now();

@@ -16,6 +16,10 @@ struct SharedWorkOptions {
   /// How long to wait for something to do before giving up: for a folder that is not there yet, too.
   std::chrono::duration<double> patience{600.0};
   io::Cancellation cancellation;  ///< requested: it ends after the evaluation that is under way has stopped
+  /// How often the folder is told how far an evaluation has come.
+  std::chrono::duration<double> between_signs{5.0};
+  /// Hears how far the evaluation under way has come. May be empty.
+  std::function<void(const std::string& key, const results::Progress& progress)> progress;
   /// Hears of every answer that was delivered. May be empty.
   std::function<void(const std::string& key, const Answer& answer)> delivered;
 };
@@ -27,8 +31,12 @@ enum class SharedEnd {
   cancelled,  ///< cancellation was requested
 };
 
-/// Evaluates what the folder asks, one after another, until there is nothing left. `evaluate` as for executors: what it
-/// throws as io::InputError is a failed evaluation, anything else a trouble.
-SharedEnd work_for(const std::filesystem::path& work, const Evaluate& evaluate, const SharedWorkOptions& options);
+/// An evaluation that tells how far it has come; otherwise as for executors.
+using EvaluateAndTell = std::function<Evaluation(const Request&, const results::ProgressCallback&)>;
+
+/// Evaluates what the folder asks, one after another, until there is nothing left. What `evaluate` throws as
+/// io::InputError is a failed evaluation, anything else a trouble.
+SharedEnd work_for(const std::filesystem::path& work, const EvaluateAndTell& evaluate,
+                   const SharedWorkOptions& options);
 
 }  // namespace perfora::optimize

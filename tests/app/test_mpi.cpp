@@ -44,7 +44,7 @@ class Mpi : public StudyCommands {
 TEST_F(Mpi, RanksGiveTheSameResult) {
   EXPECT_EQ(shell("mpirun -n 4 \"$PERFORA_MPI\" optimize s.toml -o many --no-run-file > out.txt 2> err.txt"), 0)
       << messages();
-  EXPECT_NE(messages().find("3 ranks that evaluate"), std::string::npos) << messages();
+  EXPECT_NE(messages().find("3 ranks to evaluate"), std::string::npos) << messages();
   EXPECT_EQ(result("many"), result("one"));
   EXPECT_EQ(read_text(folder_ / "many" / "best.toml"), read_text(folder_ / "one" / "best.toml"));
   EXPECT_EQ(shell("mpirun -n 3 \"$PERFORA_MPI\" optimize s.toml -o two --no-run-file --workers 1 > out.txt 2> err.txt"),

@@ -72,7 +72,7 @@ class SharedTest : public testing::Test {
     int count = 0;
     SharedWorkOptions options;
     options.patience = 20s;
-    const auto evaluate = [&](const Request& request) {
+    const auto evaluate = [&](const Request& request, const results::ProgressCallback&) {
       if (++count == last) ::kill(::getpid(), SIGKILL);
       std::this_thread::sleep_for(2ms);
       return fake_with_failures(request);
@@ -163,6 +163,40 @@ TEST_F(SharedTest, ARequestIsTakenOnceAndAnswersAreFoundLater) {
   EXPECT_FALSE(shared.delivered("key", request)) << "it is gone";
 }
 
+// What a worker tells is seen by the process that asks, while the worker holds the request and no longer.
+TEST_F(SharedTest, TellsHowFarItHasCome) {
+  const SharedFolder shared(folder / "told");
+  shared.begin();
+  const Request request = make_request(DesignFile(), 3, 0.4);
+  SharedWorkOptions options;
+  options.patience = std::chrono::duration<double>(0.0);
+  options.between_signs = std::chrono::duration<double>(0.0);
+  std::vector<std::string> heard;
+  options.progress = [&](const std::string& key, const results::Progress& progress) {
+    heard.push_back(key + ": " + progress.text);
+  };
+  std::vector<UnderWay> seen;
+  const auto evaluate = [&](const Request& asked, const results::ProgressCallback& progress) {
+    results::Progress now{0.25, "strain 10 %"};
+    now.strain = 0.1;
+    progress(now);
+    seen = shared.under_way();
+    return completed(asked);
+  };
+  shared.publish("key", request);
+  EXPECT_EQ(work_for(folder / "told", evaluate, options), SharedEnd::idle);
+  EXPECT_EQ(heard, std::vector<std::string>{"key: strain 10 %"});
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].key, "key");
+  EXPECT_EQ(seen[0].progress.text, "strain 10 %");
+  EXPECT_EQ(seen[0].progress.fraction, 0.25);
+  EXPECT_GE(seen[0].seconds, 0.0);
+  EXPECT_TRUE(shared.under_way().empty()) << "it is answered";
+  // What was told by a process that has ended says nothing of now.
+  shared.tell("key", 5.0, {0.5, "strain 20 %"});
+  EXPECT_TRUE(shared.under_way().empty());
+}
+
 TEST_F(SharedTest, ATroubleIsTriedAgain) {
   const std::string name = "trouble";
   const pid_t child = ::fork();
@@ -170,7 +204,7 @@ TEST_F(SharedTest, ATroubleIsTriedAgain) {
     int count = 0;
     SharedWorkOptions options;
     options.patience = 20s;
-    const auto evaluate = [&](const Request& request) {
+    const auto evaluate = [&](const Request& request, const results::ProgressCallback&) {
       if (++count == 2) throw std::runtime_error("the disk is full");
       return fake_with_failures(request);
     };
