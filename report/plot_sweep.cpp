@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string>
 
 #include "report/canvas.h"
 #include "report/chart.h"
@@ -23,6 +24,9 @@ constexpr double row_gap = 110.0;        ///< below a panel: ticks, label, names
 constexpr double character_width = 8.4;  ///< of tick texts, about
 constexpr double curves_left = 124.0, curves_width = 470.0;
 constexpr double measures_left = 706.0, measure_gap = 108.0;
+/// Longer names would take more of the page than the panels: numbers stand for them, and a list below says which.
+constexpr std::size_t longest_upright = 24;  ///< characters
+constexpr double list_line = 24.0;
 /// The stress axis spans at most this ratio: below it there is dust.
 constexpr double stress_decades = 1000.0;
 constexpr double logarithmic_ratio = 20.0;
@@ -51,6 +55,29 @@ bool places_are_numbers(const SweepGroup& group) {
     std::strtod(text.c_str(), &end);
     return end != text.c_str() && (*end == '\0' || *end == ' ') && std::count(text.begin(), text.end(), ' ') <= 1;
   });
+}
+
+double measure_width(const SweepPicture& picture) {
+  const double count = static_cast<double>(picture.measures.size());
+  return (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
+}
+
+/// How the values stand below the panels of measures.
+enum class Naming {
+  lying,
+  upright,
+  numbered,  ///< 1, 2, ... and a list below
+};
+std::size_t longest_place(const SweepGroup& group) {
+  std::size_t longest = 0;
+  for (const std::string& text : group.places) longest = std::max(longest, text.size());
+  return longest;
+}
+Naming naming_of(const SweepPicture& picture, const SweepGroup& group) {
+  const std::size_t longest = longest_place(group);
+  const double room = measure_width(picture) / static_cast<double>(group.places.size());
+  if (character_width * static_cast<double>(longest) + 8.0 <= room) return Naming::lying;
+  return longest > longest_upright ? Naming::numbered : Naming::upright;
 }
 
 Axis measure_axis(const SweepPicture& picture, const SweepGroup& group, std::size_t measure) {
@@ -108,6 +135,8 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   const double scale = measure_unit(picture.measures[measure]).scale;
   Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
   x.choices = group.places;
+  if (naming_of(picture, group) == Naming::numbered)
+    for (std::size_t p = 0; p < x.choices.size(); ++p) x.choices[p] = std::to_string(p + 1);
   Chart chart(canvas, box, x, measure_axis(picture, group, measure));
   for (const results::Wish& wish : picture.wishes)
     if (wish.measure->key == picture.measures[measure]) {
@@ -181,6 +210,11 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
   draw_measured(chart, picture.measured, {100.0, 1e-3}, 0.5 * stress.low);
 }
 
+/// Whether the colours stand for the places.
+bool colours_are_places(const SweepGroup& group) {
+  return group.series.size() < 2;
+}
+
 /// Names of the series above the measures; of places where the colours stand for them, above the curves.
 void draw_names(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, double y) {
   const TextStyle style{.size = 15.0, .colour = palette::soft_ink};
@@ -192,24 +226,38 @@ void draw_names(Canvas& canvas, const SweepPicture& picture, const SweepGroup& g
     canvas.text(x + 26.0, y, text, style);
     x += width;
   };
-  if (group.series.size() > 1)
+  if (!colours_are_places(group))
     for (std::size_t s = 0; s < group.series.size(); ++s)
       add(group.series[s], palette::series()[s % palette::series().size()]);
-  else
+  else if (naming_of(picture, group) != Naming::numbered)
     for (std::size_t p = 0; p < group.places.size(); ++p) add(group.places[p], ramp(p, group.places.size()));
   if (!picture.base.empty()) add("the design itself", palette::soft_ink);
   if (!picture.wishes.empty()) add("wished", mix(palette::green, palette::paper, 0.6));
   draw_measured_key(canvas, x, y, page_width - page_margin, picture.measured);
 }
 
-/// Room below the panels of a group: more where its texts stand upright.
+/// The list that says what the numbers below the measures stand for.
+void draw_list(Canvas& canvas, const SweepGroup& group, double y) {
+  const TextStyle style{.size = 15.0};
+  for (std::size_t p = 0; p < group.places.size(); ++p, y += list_line) {
+    if (colours_are_places(group))
+      canvas.line(curves_left, y - 5.0, curves_left + 20.0, y - 5.0, ramp(p, group.places.size()), 3.0);
+    const std::string text = std::to_string(p + 1) + "   " + group.places[p];
+    canvas.text(curves_left + 30.0, y, canvas.fit(text, page_width - page_margin - curves_left - 30.0, style), style);
+  }
+}
+
+/// Room below the panels of a group: more where its texts stand upright or in a list.
 double room_below(const SweepPicture& picture, const SweepGroup& group) {
-  std::size_t longest = 0;
-  for (const std::string& text : group.places) longest = std::max(longest, text.size());
-  const double count = static_cast<double>(picture.measures.size());
-  const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
-  const double text = character_width * static_cast<double>(longest);
-  return row_gap + (text + 8.0 > width / static_cast<double>(group.places.size()) ? text : 0.0);
+  switch (naming_of(picture, group)) {
+    case Naming::lying:
+      break;
+    case Naming::upright:
+      return row_gap + character_width * static_cast<double>(longest_place(group));
+    case Naming::numbered:
+      return row_gap + list_line * static_cast<double>(group.places.size());
+  }
+  return row_gap;
 }
 
 }  // namespace
@@ -223,8 +271,7 @@ void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out) {
   canvas.text(page_margin, 56.0, canvas.fit(picture.title, page_width - 2.0 * page_margin, title), title);
   canvas.text(page_margin, 88.0, canvas.fit(picture.subtitle, page_width - 2.0 * page_margin, line), line);
   draw_verdict(canvas, page_margin, 114.0, page_width - 2.0 * page_margin, picture.outcome, picture.verdict);
-  const double count = static_cast<double>(picture.measures.size());
-  const double width = (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
+  const double width = measure_width(picture);
   double y = first_row;
   for (const SweepGroup& group : picture.groups) {
     draw_names(canvas, picture, group, y - 14.0);
@@ -232,6 +279,7 @@ void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out) {
     for (std::size_t m = 0; m < picture.measures.size(); ++m)
       draw_measure(canvas, picture, group, m,
                    {measures_left + static_cast<double>(m) * (width + measure_gap), y, width, panel_height});
+    if (naming_of(picture, group) == Naming::numbered) draw_list(canvas, group, y + panel_height + row_gap - 32.0);
     y += panel_height + room_below(picture, group);
   }
   canvas.write();

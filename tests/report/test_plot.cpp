@@ -280,6 +280,32 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   EXPECT_THROW(plot_sweep(picture, folder / "full.gif"), io::InputError);
 }
 
+// Names that would take more of the page than the panels stand in a list, a line each, however long they are.
+TEST(Sweep, LongNamesStandInAList) {
+  const auto folder = fresh_folder("sweep_names");
+  SweepPicture picture;
+  picture.measures = {"plateau_stress"};
+  const auto height = [&](const std::vector<std::string>& names) {
+    SweepGroup group;
+    group.series = {""};
+    group.places = names;
+    for (int place = 0; place < static_cast<int>(names.size()); ++place)
+      group.points.push_back({place, 0, {}, {{{1e4}, 1e4, NAN}}});
+    picture.groups = {group};
+    plot_sweep(picture, folder / "s.png");
+    return Image(folder / "s.png").height();
+  };
+  const int lying = height({"a", "b"});
+  const std::string longer(60, 'x'), longest(120, 'x');
+  const int two = height({longer, longer}), three = height({longer, longer, longest});
+  EXPECT_GT(two, lying);
+  EXPECT_EQ(2 * (three - two), two - lying) << "one line each";
+  EXPECT_GT(height({std::string(20, 'x'), std::string(20, 'x'), std::string(20, 'x'), std::string(20, 'x'),
+                    std::string(20, 'x'), std::string(20, 'x')}),
+            lying)
+      << "shorter ones stand upright";
+}
+
 // Two cases on the diagonal: the one with the larger result stands higher, and as far right of the other as above it.
 TEST(Correlation, DrawsAPointACase) {
   const auto folder = fresh_folder("correlation");
