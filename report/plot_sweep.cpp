@@ -27,7 +27,7 @@ constexpr double measures_left = 706.0, measure_gap = 108.0;
 /// Longer names would take more of the page than the panels: numbers stand for them, and a list below says which.
 constexpr std::size_t longest_upright = 24;  ///< characters
 constexpr double list_line = 24.0;
-/// The stress axis spans at most this ratio: below it there is dust.
+/// A logarithmic stress axis spans at most this ratio: below it there is dust.
 constexpr double stress_decades = 1000.0;
 constexpr double logarithmic_ratio = 20.0;
 
@@ -180,8 +180,14 @@ void draw_curve(Chart& chart, const std::vector<results::Curve>& curves, const C
   chart.polyline(mean.strain, mean.stress, colour, thickness);
 }
 
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& group, const Box& box) {
-  double highest = 0.0, lowest = std::numeric_limits<double>::infinity(), end = 0.0;
+  double highest = 0.0, lowest = std::numeric_limits<double>::infinity(), lowest_median = lowest, end = 0.0;
   for (const auto* points : {&group.points, &picture.base})
     for (const SweepPoint& point : *points) {
       const results::Curve mean = smoothed_mean(point.curves);
@@ -190,6 +196,7 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
         highest = std::max(highest, 1e-3 * mean.stress[k]);
         if (mean.stress[k] > 0.0) lowest = std::min(lowest, 1e-3 * mean.stress[k]);
       }
+      if (!mean.stress.empty()) lowest_median = std::min(lowest_median, 1e-3 * median_of(mean.stress));
     }
   for (const results::Curve& curve : picture.measured)
     for (std::size_t k = 0; k < curve.strain.size(); ++k) {
@@ -202,7 +209,11 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
                 {.size = 17.0, .colour = palette::soft_ink, .align = Align::centre});
     return;
   }
-  const Axis stress{std::max(0.8 * lowest, highest / stress_decades), 1.5 * highest, "stress (kPa)", true};
+  // How flat a curve is shows on a linear axis; where cases differ too much for one, each shows on a logarithmic one.
+  const bool logarithmic = highest > logarithmic_ratio * lowest_median;
+  const Axis stress = logarithmic
+                          ? Axis{std::max(0.8 * lowest, highest / stress_decades), 1.5 * highest, "stress (kPa)", true}
+                          : Axis{0.0, 1.05 * highest, "stress (kPa)"};
   Chart chart(canvas, box, {0.0, std::ceil(end), "engineering strain (%)"}, stress);
   chart.draw_axes();
   for (const SweepPoint& base : picture.base) draw_curve(chart, base.curves, palette::soft_ink, 1.4);
