@@ -224,10 +224,12 @@ class MpiExecutor final : public Executor {
     }
   }
 
-  /// A rank sends its signs before its answer, and messages of one rank come in their order: one that comes after an
-  /// answer was asked for belongs to it.
+  /// Messages of one rank come in their order, its signs before its answer: what comes while it is busy belongs to what
+  /// it is at, but for one that is late by a moment.
   void take_signs() {
     while (const auto message = receive_message(MPI_ANY_SOURCE, alive_tag)) {
+      // One that was under way when the work before this ended says nothing of this.
+      if (message->rank > workers_ || !busy(message->rank)) continue;
       const json sign = json::parse(message->text, nullptr, false);
       if (is_sign_of_life(sign)) at(message->rank).progress = told_by(sign);
     }
