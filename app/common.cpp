@@ -50,35 +50,36 @@ CLI::Validator no_effect_on_results(const std::string& flag) {
 }
 }  // namespace
 
-CLI::Validator positive_number(bool zero) {
+namespace {
+
+/// Refuses what is no Number, or one that is not `good`; `wanted` ends the message: "... is no WANTED".
+template <typename Number, typename Good>
+CLI::Validator number_that(Good good, const std::string& wanted) {
   return CLI::Validator(
-      [zero](std::string& text) {
-        double number = 0.0;
-        const bool good =
-            CLI::detail::lexical_cast(text, number) && (zero ? number >= 0.0 : number > 0.0) && std::isfinite(number);
-        return good ? std::string() : fmt::format("\"{}\" is no number {}", text, zero ? "of 0 or more" : "above 0");
+      [good, wanted](std::string& text) {
+        Number number{};
+        if (CLI::detail::lexical_cast(text, number) && good(number)) return std::string();
+        return fmt::format("\"{}\" is no {}", text, wanted);
       },
       "");
+}
+
+}  // namespace
+
+CLI::Validator positive_number(bool zero) {
+  return number_that<double>(
+      [zero](double number) { return (zero ? number >= 0.0 : number > 0.0) && std::isfinite(number); },
+      zero ? "number of 0 or more" : "number above 0");
 }
 
 CLI::Validator number_within(double least, double largest) {
-  return CLI::Validator(
-      [least, largest](std::string& text) {
-        double number = 0.0;
-        const bool good = CLI::detail::lexical_cast(text, number) && number >= least && number <= largest;
-        return good ? std::string() : fmt::format("\"{}\" is no number from {} to {}", text, least, largest);
-      },
-      "");
+  return number_that<double>([=](double number) { return number >= least && number <= largest; },
+                             fmt::format("number from {} to {}", least, largest));
 }
 
 CLI::Validator whole_number_within(std::int64_t least, std::int64_t largest) {
-  return CLI::Validator(
-      [least, largest](std::string& text) {
-        std::int64_t number = 0;
-        const bool good = CLI::detail::lexical_cast(text, number) && number >= least && number <= largest;
-        return good ? std::string() : fmt::format("\"{}\" is no whole number from {} to {}", text, least, largest);
-      },
-      "");
+  return number_that<std::int64_t>([=](std::int64_t number) { return number >= least && number <= largest; },
+                                   fmt::format("whole number from {} to {}", least, largest));
 }
 
 namespace {

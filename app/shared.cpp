@@ -48,20 +48,18 @@ int work(const SharedFlags& flags) {
     return exit_ok;
   }
   int evaluated = 0;
-  std::string under_way;
-  std::optional<ProgressLine> line;
+  std::optional<ProgressLine> line;  // of the evaluation under way
   optimize::SharedWorkOptions options;
   options.patience = std::chrono::duration<double>(flags.wait);
   options.cancellation = stop_token();
   options.progress = [&](const std::string& key, const results::Progress& progress) {
-    if (key != under_way) line.emplace(key, flags.common.quiet);
-    under_way = key;
+    // A line of 80 characters has no room for a whole key beside strain and stress.
+    if (!line) line.emplace(key.substr(0, 8), flags.common.quiet);
     line->update(progress.fraction, progress.text);
   };
   options.delivered = [&](const std::string& key, const optimize::Answer& answer) {
     ++evaluated;
     line.reset();
-    under_way.clear();
     io::log_info(fmt::format("{}: {}, {}", key,
                              answer.trouble.empty() ? results::status_name(answer.evaluation.status) : answer.trouble,
                              io::duration(answer.seconds)));
