@@ -93,7 +93,6 @@ Part of_folder(const fs::path& folder, const ReportOptions& options) {
     if (kind == "sweep") results::read_sweep_runs(record);
     record.measured = options.measured;
     part = sweep_part(record);
-    if (const json verdict = verdict_facts(result); !verdict.is_null()) part.facts["verdict"] = verdict;
     if (kind == "ensemble") take_in_run(whole, folder / "replicate-000.h5", "The first replicate", options);
   } else if (kind == "map") {
     part = map_part(results::read_map_record(folder));

@@ -35,10 +35,10 @@ struct SweepGroup {
 
 struct SweepPicture {
   std::string title, subtitle;
-  std::string verdict, outcome;       ///< of an ensemble with a target; empty: none
+  std::string verdict, outcome;       ///< of an ensemble or one case with a target; empty: none
   std::vector<std::string> measures;  ///< keys of the table of measures: "plateau_stress"
   std::vector<SweepGroup> groups;
-  std::vector<results::Wish> wishes;  ///< bands behind the results
+  std::vector<results::Wish> wishes;     ///< bands behind the results
   std::vector<SweepPoint> base;          ///< the design itself, drawn behind every group: none or one
   std::vector<results::Curve> measured;  ///< drawn thin beside the curves of every group, under their names
 };

@@ -40,8 +40,10 @@ SweepPoint point_of(const results::SweepRecord& record, const results::SweepCase
 SweepPicture sweep_picture(const results::SweepRecord& record) {
   SweepPicture picture;
   picture.title = record.title;
-  picture.verdict = record.verdict;
-  picture.outcome = record.outcome;
+  if (record.verdict.is_object()) {
+    picture.verdict = record.verdict.value("text", "");
+    picture.outcome = record.verdict.value("outcome", "");
+  }
   picture.measures = record.measures;
   picture.measured = record.measured;
   picture.wishes = record.wishes;

@@ -62,6 +62,7 @@ SweepRecord from_object(const json& object, const fs::path& file) {
     added.completed = one.value("completed", 0);
     for (const auto& [name, statistic] : one.at("statistics").items())
       added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
+    if (object.at("cases").size() == 1) record.verdict = one.value("verdict", json());
     if (!columns.empty() || !one.contains("settings")) continue;
     for (const auto& setting : one.at("settings").items()) columns.push_back(setting.key());
   }
@@ -127,9 +128,7 @@ SweepRecord ensemble_in(const fs::path& folder) {
   only.label = only.place = record.name;
   if (fs::exists(folder / "ensemble.json")) {
     const json result = json::parse(io::read_file(folder / "ensemble.json"), nullptr, false);
-    const json verdict = result.is_object() ? result.value("verdict", json::object()) : json::object();
-    record.verdict = verdict.value("text", "");
-    record.outcome = verdict.value("outcome", "");
+    if (result.is_object()) record.verdict = result.value("verdict", json());
   }
   std::map<int, json> evaluations;  // by replicate
   for (const json& event : journal_events(folder))

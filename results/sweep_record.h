@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,13 @@ struct SweepRecord {
   int replicates = 0;                 ///< of each case, as requested
   std::vector<std::string> measures;  ///< that its picture shows
   std::vector<SweepCase> cases;
-  std::vector<Wish> wishes;           ///< of the design
+  std::vector<Wish> wishes;  ///< of the design
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
   /// where an older program left them out.
   std::vector<double> plateau_window;
-  std::string verdict, outcome;  ///< of an ensemble whose design wishes something: Verdict::text, outcome_name()
+  /// As results::to_json(Verdict) writes it, of an ensemble or of a sweep of one case, where the design wishes
+  /// something and a run was judged; null where there is none. Of several cases each has its own, in cases.csv.
+  nlohmann::json verdict;
   std::string design;           ///< of an ensemble: its resolved configuration; empty where it is not known
   std::vector<Curve> measured;  ///< of experiments, for pictures; no reader fills it
 };

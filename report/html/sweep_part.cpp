@@ -78,20 +78,16 @@ Part sweep_part(const results::SweepRecord& record) {
     groups.push_back({{"label", group.label}, {"places", group.places}, {"series", group.series}, {"points", points}});
   }
   for (const SweepPoint& point : picture.base) base.push_back(point_facts(point));
-  part.facts = {
-      {"block",
-       fmt::format("{} case{}, {} replicate{} each; {}", record.cases.size(), record.cases.size() == 1 ? "" : "s",
-                   record.replicates, record.replicates == 1 ? "" : "s", record.reason)},
-      {"measures", measures},
-      {"groups", groups},
-      {"base", base},
-      {"measured", curve_facts(record.measured)},
-      {"window", numbers_or_null(record.plateau_window)},
-      {"cases", case_rows(record)},
-      {"verdict",
-       record.verdict.empty()
-           ? json()
-           : json{{"text", record.verdict}, {"outcome", record.outcome}, {"note", ""}, {"wishes", json::array()}}}};
+  part.facts = {{"block", fmt::format("{} case{}, {} replicate{} each; {}", record.cases.size(),
+                                      record.cases.size() == 1 ? "" : "s", record.replicates,
+                                      record.replicates == 1 ? "" : "s", record.reason)},
+                {"measures", measures},
+                {"groups", groups},
+                {"base", base},
+                {"measured", curve_facts(record.measured)},
+                {"window", numbers_or_null(record.plateau_window)},
+                {"cases", case_rows(record)},
+                {"verdict", verdict_facts({{"verdict", record.verdict}})}};
   return part;
 }
 

@@ -16,6 +16,7 @@
 #include "report/html/page.h"
 #include "report/html/run_part.h"
 #include "report/html_report.h"
+#include "report/sweep_picture.h"
 #include "results/map_record.h"
 #include "results/measure_table.h"
 #include "results/sampled_curve.h"
@@ -208,6 +209,45 @@ TEST(Report, OfEveryKindOfWork) {
   ASSERT_EQ(work.at("failed").size(), 1u);
   EXPECT_EQ(work.at("failed").at(0).at("reason"), "breaks a constraint");
   EXPECT_FALSE(work.at("finals").at("best_scores").empty());
+}
+
+TEST(Report, OfOneCaseAndOfAnEnsembleHoldsTheVerdictWithItsWishes) {
+  const auto folder = fresh_folder("report-verdict");
+  const fs::path data = fs::path(PERFORA_SOURCE_DIR) / "tests" / "pinned" / "data";
+  const json verdict = {
+      {"outcome", "missed"},
+      {"text", "missed: the plateau"},
+      {"note", "of the mean"},
+      {"wishes", {{{"outcome", "missed"}, {"text", "plateau 2.000 MPa"}, {"measure", "plateau_stress"}}}}};
+  const auto shown = [&](const fs::path& work) {
+    write_report(work, folder / "r.html");
+    const json found = facts_of(io::read_file(folder / "r.html")).at("verdict");
+    EXPECT_EQ(found.at("outcome"), "missed");
+    EXPECT_EQ(found.at("text"), "missed: the plateau");
+    EXPECT_EQ(found.at("note"), "of the mean");
+    ASSERT_EQ(found.at("wishes").size(), 1u);
+    EXPECT_EQ(found.at("wishes").at(0).at("text"), "plateau 2.000 MPa");
+  };
+  fs::copy(data / "sweep-files", folder / "sweep", fs::copy_options::recursive);
+  json result = json::parse(io::read_file(folder / "sweep" / "result.json"));
+  ASSERT_EQ(result.at("cases").size(), 1u);
+  result["cases"][0]["verdict"] = verdict;
+  io::write_file(folder / "sweep" / "result.json", result.dump());
+  shown(folder / "sweep");
+  // The picture of the sweep says the same.
+  const SweepPicture picture = sweep_picture(results::read_sweep_record(folder / "sweep"));
+  EXPECT_EQ(picture.verdict, "missed: the plateau");
+  EXPECT_EQ(picture.outcome, "missed");
+  // Of two cases each has its own: none stands above them all.
+  result["cases"].push_back(result.at("cases").at(0));
+  io::write_file(folder / "sweep" / "result.json", result.dump());
+  EXPECT_EQ(sweep_picture(results::read_sweep_record(folder / "sweep")).verdict, "");
+
+  fs::copy(data / "ensemble", folder / "ensemble", fs::copy_options::recursive);
+  result = json::parse(io::read_file(folder / "ensemble" / "ensemble.json"));
+  result["verdict"] = verdict;
+  io::write_file(folder / "ensemble" / "ensemble.json", result.dump());
+  shown(folder / "ensemble");
 }
 
 TEST(Report, OfAMapHoldsWhatCanBeReachedAndWhatIsWished) {
