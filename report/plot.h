@@ -36,12 +36,14 @@ struct RunPicture {
   std::vector<Snapshot> snapshots;
 };
 
-/// The frames a picture shows: the first, the one nearest to the first peak (strain from the summary), the last; fewer
-/// where they coincide.
-std::vector<std::size_t> snapshot_frames(const results::RunResult& run);
+/// The frames a picture shows, in their order: the first, the one nearest to the first peak (strain from the summary),
+/// the last; fewer where they coincide. Up to `most`, at least 3, with others as evenly spaced in strain as the frames
+/// allow.
+std::vector<std::size_t> snapshot_frames(const results::RunResult& run, std::size_t most = 3);
 
-/// R.h5 -> picture: stress over strain with first peak, plateau and what else the summary knows; the block at up to
-/// three strains with its fragments. Throws io::InputError for a bad R.h5 or an extension other than .png, .svg, .pdf.
+/// R.h5 -> picture: stress over strain with first peak, plateau and what else the summary knows; the block at
+/// three strains with its fragments, a wide block at as many as find room over each other. Throws io::InputError for a
+/// bad R.h5 or an extension other than .png, .svg, .pdf.
 void plot_run(const std::filesystem::path& run_file, const std::filesystem::path& out, const PlotOptions& options = {});
 void draw_run(const RunPicture& picture, const std::filesystem::path& out, const PlotOptions& options = {});
 

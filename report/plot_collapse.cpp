@@ -1,5 +1,5 @@
-// What is here: how runs collapse: a row a run, a block a frame, with the stress it carries. What is not: one run in
-// full (plot_run.cpp), the blocks themselves (block_picture.h).
+// What is here: how runs collapse: a run after the other, a block a frame, with the stress it carries. What is not: one
+// run in full (plot_run.cpp), the blocks themselves (block_picture.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,26 +22,27 @@ constexpr double first_row = 130.0;
 constexpr double block_gap = 14.0;
 constexpr double label_height = 34.0;    ///< above the blocks of a row
 constexpr double caption_height = 62.0;  ///< below them
-constexpr std::size_t most_blocks = 8;   ///< in a row
+constexpr std::size_t most_blocks = 8;   ///< of a run
+constexpr double least_height = 55.0;    ///< of a block, where fewer of them in a row make it higher
 
-/// Frames that are shown: all of them, or as many as fit, evenly, with the first, the peak's and the last among them.
+/// Frames that are shown: all of them, or as many as fit.
 std::vector<std::size_t> shown_frames(const results::RunResult& run) {
+  if (run.frames.size() > most_blocks) return snapshot_frames(run, most_blocks);
   std::vector<std::size_t> chosen;
-  if (run.frames.size() <= most_blocks) {
-    for (std::size_t k = 0; k < run.frames.size(); ++k) chosen.push_back(k);
-    return chosen;
-  }
-  chosen = snapshot_frames(run);
-  for (std::size_t k = 1; chosen.size() < most_blocks && k < most_blocks; ++k) {
-    const double wanted = run.frames.back().strain * static_cast<double>(k) / (most_blocks - 1);
-    const auto nearest = std::min_element(run.frames.begin(), run.frames.end(), [&](const auto& a, const auto& b) {
-      return std::abs(a.strain - wanted) < std::abs(b.strain - wanted);
-    });
-    const auto index = static_cast<std::size_t>(nearest - run.frames.begin());
-    if (std::find(chosen.begin(), chosen.end(), index) == chosen.end()) chosen.push_back(index);
-  }
-  std::sort(chosen.begin(), chosen.end());
+  for (std::size_t k = 0; k < run.frames.size(); ++k) chosen.push_back(k);
   return chosen;
+}
+
+double block_width(std::size_t in_line) {
+  const auto count = static_cast<double>(in_line);
+  return (page_width - 2.0 * page_margin - (count - 1.0) * block_gap) / count;
+}
+
+/// Blocks beside each other: all of them, of wide blocks fewer, over each other in lines.
+std::size_t blocks_in_line(const results::RunResult& run) {
+  std::size_t count = most_blocks;
+  while (count > 1 && block_width(count) * run.height / run.width < least_height) count /= 2;
+  return count;
 }
 
 /// Mean stress over 0.5 % strain around a frame, Pa; the peak's frame shows the fall, not the peak.
@@ -66,27 +67,36 @@ std::string row_text(const LabelledRun& row) {
   return text;
 }
 
+/// A line of blocks with its captions, in whole pixels: lines alike.
+double line_height(const results::RunResult& run) {
+  return std::ceil(block_width(blocks_in_line(run)) * run.height / run.width + caption_height);
+}
+
 double row_height(const LabelledRun& row) {
-  const double width = (page_width - 2.0 * page_margin - (most_blocks - 1) * block_gap) / most_blocks;
-  return std::ceil(label_height + width * row.run.height / row.run.width + caption_height);  // whole pixels: rows alike
+  const std::size_t in_line = blocks_in_line(row.run);
+  const std::size_t lines = (shown_frames(row.run).size() + in_line - 1) / in_line;
+  return label_height + static_cast<double>(std::max<std::size_t>(1, lines)) * line_height(row.run);
 }
 
 void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
-  const double width = (page_width - 2.0 * page_margin - (most_blocks - 1) * block_gap) / most_blocks;
-  const double base = top + label_height + width * row.run.height / row.run.width;
+  const std::size_t in_line = blocks_in_line(row.run);
+  const double width = block_width(in_line);
   const TextStyle label{.size = 17.0, .bold = true};
   canvas.text(page_margin, top + 12.0, canvas.fit(row_text(row), page_width - 2.0 * page_margin, label), label);
-  double x = page_margin;
-  for (const std::size_t k : shown_frames(row.run)) {
-    const results::FrameInfo& info = row.run.frames[k];
-    const BlockPicture picture = picture_of_frame(results::read_frame(row.run, k), row.run.clipped, row.run.edges);
+  const std::vector<std::size_t> shown = shown_frames(row.run);
+  for (std::size_t place = 0; place < shown.size(); ++place) {
+    const results::FrameInfo& info = row.run.frames[shown[place]];
+    const auto line = static_cast<double>(place / in_line), column = static_cast<double>(place % in_line);
+    const double x = page_margin + column * (width + block_gap);
+    const double base = top + label_height + width * row.run.height / row.run.width + line * line_height(row.run);
+    const BlockPicture picture =
+        picture_of_frame(results::read_frame(row.run, shown[place]), row.run.clipped, row.run.edges);
     const double scale = width / std::max(picture.extent_x(), row.run.width);
     draw_block(canvas, {x, base - picture.h_yy * scale, picture.extent_x() * scale, picture.h_yy * scale}, picture);
     canvas.text(x, base + 22.0, io::quantity(info.strain, io::Dimension::ratio) + " strain", {.size = 15.0});
     if (info.strain > 0.0)
       canvas.text(x, base + 41.0, io::quantity(stress_around(row.run, info.strain), io::Dimension::stress),
                   {.size = 15.0, .colour = palette::soft_ink});
-    x += width + block_gap;
   }
 }
 

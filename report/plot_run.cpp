@@ -123,8 +123,8 @@ double area_of_blocks(const RunPicture& picture, const std::vector<Box>& rooms) 
   return area;
 }
 
-/// Where two or three snapshots stand: one over the other (wide blocks), side by side (tall ones), or two above the
-/// last; whichever shows them largest.
+/// Where two or more snapshots stand: one over the other (wide blocks), side by side (tall ones), or of three two above
+/// the last; whichever shows them largest.
 std::vector<Box> snapshot_rooms(const RunPicture& picture, const Box& whole, double gap) {
   const auto count = static_cast<double>(picture.snapshots.size());
   std::vector<Box> stacked, beside, two_above;
@@ -148,40 +148,53 @@ std::vector<Box> snapshot_rooms(const RunPicture& picture, const Box& whole, dou
   return best;
 }
 
+constexpr Box snapshots_box{middle, 138.0, page_width - right_margin - middle, page_height - 138.0 - 50.0};
+constexpr double snapshot_gap = 26.0;
+
+/// How many undeformed blocks of this run find room over each other in the whole width: three at least.
+std::size_t most_snapshots(const results::RunResult& run) {
+  const double room = caption_height + snapshots_box.width * run.height / run.width + scale_height + snapshot_gap;
+  return std::max<std::size_t>(3, static_cast<std::size_t>((snapshots_box.height + snapshot_gap) / room));
+}
+
 void draw_snapshots(Canvas& canvas, const RunPicture& picture) {
-  const double width = page_width - right_margin - middle;
-  constexpr double gap = 26.0;
-  constexpr double top = 138.0;
   const std::size_t count = picture.snapshots.size();
   if (count == 0) {
-    canvas.text(middle + width / 2.0, page_height / 2.0, "no frames in this file (output.frames = \"none\")",
+    canvas.text(middle + snapshots_box.width / 2.0, page_height / 2.0,
+                "no frames in this file (output.frames = \"none\")",
                 {.size = 18.0, .colour = palette::soft_ink, .align = Align::centre});
     return;
   }
   const results::RunResult& run = *picture.run;
-  const Box whole{middle, top, width, page_height - top - 50.0};
-  if (count == 1) return draw_snapshot(canvas, run, picture.snapshots[0], 'A', whole);
-  const std::vector<Box> rooms = snapshot_rooms(picture, whole, gap);
+  if (count == 1) return draw_snapshot(canvas, run, picture.snapshots[0], 'A', snapshots_box);
+  const std::vector<Box> rooms = snapshot_rooms(picture, snapshots_box, snapshot_gap);
   for (std::size_t k = 0; k < count; ++k)
     draw_snapshot(canvas, run, picture.snapshots[k], static_cast<char>('A' + k), rooms[k]);
 }
 
 std::string caption_of(const results::FrameInfo& info, const char* what) {
-  return fmt::format("{}, {} strain", what, io::quantity(info.strain, io::Dimension::ratio));
+  const std::string strain = io::quantity(info.strain, io::Dimension::ratio) + " strain";
+  return what[0] == '\0' ? strain : fmt::format("{}, {}", what, strain);
 }
 
 }  // namespace
 
-std::vector<std::size_t> snapshot_frames(const results::RunResult& run) {
+std::vector<std::size_t> snapshot_frames(const results::RunResult& run, std::size_t most) {
   if (run.frames.empty()) return {};
-  std::vector<std::size_t> chosen = {0};
-  if (const auto peak = results::summary_number(run.summary, "first_peak_strain")) {
+  const auto add_nearest = [&](std::vector<std::size_t>& chosen, double strain) {
     const auto nearest = std::min_element(run.frames.begin(), run.frames.end(), [&](const auto& a, const auto& b) {
-      return std::abs(a.strain - *peak) < std::abs(b.strain - *peak);
+      return std::abs(a.strain - strain) < std::abs(b.strain - strain);
     });
     chosen.push_back(static_cast<std::size_t>(nearest - run.frames.begin()));
-  }
+  };
+  std::vector<std::size_t> chosen = {0};
+  if (const auto peak = results::summary_number(run.summary, "first_peak_strain")) add_nearest(chosen, *peak);
   chosen.push_back(run.frames.size() - 1);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  const std::size_t free = most - std::min(most, chosen.size());
+  for (std::size_t k = 1; k <= free; ++k)
+    add_nearest(chosen, run.frames.back().strain * static_cast<double>(k) / static_cast<double>(free + 1));
+  std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
@@ -203,12 +216,15 @@ void plot_run(const std::filesystem::path& run_file, const std::filesystem::path
   const results::RunResult run = results::read_run(run_file);
   RunPicture picture{&run, {}};
   const auto peak = results::summary_number(run.summary, "first_peak_strain");
-  const std::vector<std::size_t> chosen = snapshot_frames(run);
+  const std::vector<std::size_t> chosen = snapshot_frames(run, most_snapshots(run)), fewest = snapshot_frames(run);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const results::FrameInfo& info = run.frames[chosen[k]];
-    const bool at_peak = peak && k > 0 && k + 1 < chosen.size();
-    const char* what =
-        info.strain < 1e-6 ? "intact" : (at_peak ? "near the first peak" : (k + 1 == chosen.size() ? "last" : "first"));
+    const bool at_peak = peak && fewest.size() == 3 && chosen[k] == fewest[1];
+    const char* what = info.strain < 1e-6            ? "intact"
+                       : at_peak                     ? "near the first peak"
+                       : chosen[k] == fewest.back()  ? "last"
+                       : chosen[k] == fewest.front() ? "first"
+                                                     : "";
     picture.snapshots.push_back({caption_of(info, what), results::read_frame(run, chosen[k])});
   }
   draw_run(picture, out, options);

@@ -40,9 +40,9 @@ SweepPoint point_of(const results::SweepRecord& record, const results::SweepCase
 SweepPicture sweep_picture(const results::SweepRecord& record) {
   SweepPicture picture;
   picture.title = record.title;
-  if (record.verdict.is_object()) {
-    picture.verdict = record.verdict.value("text", "");
-    picture.outcome = record.verdict.value("outcome", "");
+  if (const auto verdict = record.judged.find("verdict"); verdict != record.judged.end() && verdict->is_object()) {
+    picture.verdict = verdict->value("text", "");
+    picture.outcome = verdict->value("outcome", "");
   }
   picture.measures = record.measures;
   picture.measured = record.measured;

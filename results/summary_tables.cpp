@@ -94,8 +94,9 @@ std::string sweep_table(const json& sweep) {
     text += "\n";
   }
   for (const json& one : cases)
-    if (const std::string verdict = text_in(object_in(one, "verdict"), "text"); !verdict.empty())
-      text += fmt::format("case {}: {}\n", io::count(number_in(one, "case")), verdict);
+    for (const char* key : {"verdict", "single_blocks"})
+      if (const std::string said = text_in(object_in(one, key), "text"); !said.empty())
+        text += fmt::format("case {}: {}\n", io::count(number_in(one, "case")), said);
   text += "+- half of the 95 % interval of the mean";
   return text + (compared ? "; in brackets the change to case 0\n" : "\n");
 }

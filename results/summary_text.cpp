@@ -192,6 +192,12 @@ std::string verified_text(const json& designs) {
   return text.empty() ? text : "Verified designs\n" + text;
 }
 
+/// How many single blocks keep every wish, and where the next one will lie.
+std::string single_blocks_text(const json& object) {
+  const std::string blocks = text_in(object_in(object, "single_blocks"), "text");
+  return blocks.empty() ? blocks : "Single blocks\n  " + blocks + "\n";
+}
+
 /// How many designs no other beats in all that is weighed, and how many of them were verified.
 std::string pareto_text(const json& set) {
   const json& designs = list_in(set, "designs");
@@ -217,8 +223,7 @@ std::string optimize_text(const json& object, const KeyDimension& key_dimension)
   if (!best.empty() && text_in(object, "status") == "completed")
     text += finals_text(object_in(object, "finals"), best == object_in(object, "start"));
   text += verified_text(list_in(object, "verified"));
-  if (const std::string blocks = text_in(object_in(object, "single_blocks"), "text"); !blocks.empty())
-    text += "Single blocks\n  " + blocks + "\n";
+  text += single_blocks_text(object);
   text += sentences_text("Remarks", list_in(object, "remarks"));
   text += sentences_text("What more would buy", list_in(object, "what_more_would_buy"));
   return text + performance_text(object);
@@ -258,7 +263,8 @@ std::string summary_text(const json& object, const KeyDimension& key_dimension, 
       {"perfora.pack/1", pack_text},
       {"perfora.evaluate/1", evaluate_text},
       {"perfora.elastic/1", elastic_text},
-      {"perfora.ensemble/1", [](const json& o) { return statistics_table(required_object(o, "statistics")); }},
+      {"perfora.ensemble/1",
+       [](const json& o) { return single_blocks_text(o) + statistics_table(required_object(o, "statistics")); }},
       {"perfora.sweep/1", [](const json& o) { return performance_text(o) + sweep_table(o); }},
       {"perfora.tolerance/1", [](const json& o) { return performance_text(o) + tolerance_table(o); }},
       {"perfora.optimize/1", [&](const json& o) { return optimize_text(o, key_dimension); }},

@@ -36,6 +36,14 @@ std::string name_of(const fs::path& folder) {
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
+/// SweepRecord::judged of what has them.
+json judged_in(const json& object) {
+  json judged = json::object();
+  for (const char* key : {"verdict", "single_blocks"})
+    if (const auto found = object.find(key); found != object.end()) judged[key] = *found;
+  return judged;
+}
+
 SweepCase* case_numbered(SweepRecord& record, const std::string& number) {
   for (SweepCase& one : record.cases)
     if (std::to_string(one.number) == number) return &one;
@@ -62,7 +70,7 @@ SweepRecord from_object(const json& object, const fs::path& file) {
     added.completed = one.value("completed", 0);
     for (const auto& [name, statistic] : one.at("statistics").items())
       added.results[name] = {number_or_nan(statistic, "mean"), number_or_nan(statistic, "confidence_95")};
-    if (object.at("cases").size() == 1) record.verdict = one.value("verdict", json());
+    if (object.at("cases").size() == 1) record.judged = judged_in(one);
     if (!columns.empty() || !one.contains("settings")) continue;
     for (const auto& setting : one.at("settings").items()) columns.push_back(setting.key());
   }
@@ -128,7 +136,7 @@ SweepRecord ensemble_in(const fs::path& folder) {
   only.label = only.place = record.name;
   if (fs::exists(folder / "ensemble.json")) {
     const json result = json::parse(io::read_file(folder / "ensemble.json"), nullptr, false);
-    if (result.is_object()) record.verdict = result.value("verdict", json());
+    if (result.is_object()) record.judged = judged_in(result);
   }
   std::map<int, json> evaluations;  // by replicate
   for (const json& event : journal_events(folder))

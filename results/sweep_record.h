@@ -53,9 +53,9 @@ struct SweepRecord {
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
   /// where an older program left them out.
   std::vector<double> plateau_window;
-  /// As results::to_json(Verdict) writes it, of an ensemble or of a sweep of one case, where the design wishes
-  /// something and a run was judged; null where there is none. Of several cases each has its own, in cases.csv.
-  nlohmann::json verdict;
+  /// {verdict, single_blocks} as results::to_json() writes them, of an ensemble or of a sweep of one case, where the
+  /// design wishes something and a run was judged; else empty. Of several cases each has its own, in cases.csv.
+  nlohmann::json judged = nlohmann::json::object();
   std::string design;           ///< of an ensemble: its resolved configuration; empty where it is not known
   std::vector<Curve> measured;  ///< of experiments, for pictures; no reader fills it
 };

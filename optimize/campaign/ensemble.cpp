@@ -66,7 +66,10 @@ class EnsembleRun final : public Campaign {
     std::vector<const Evaluation*> judged;
     for (const Evaluation& one : found.replicates) judged.push_back(&one);
     const results::Target& target = design_.design().target;
-    if (!judged.empty() && !results::wishes(target).empty()) found.verdict = results::verdict_on(target, judged);
+    if (!judged.empty() && !results::wishes(target).empty()) {
+      found.verdict = results::verdict_on(target, judged);
+      found.single_blocks = results::assurance_of(target, judged);
+    }
     return found;
   }
 
@@ -170,6 +173,7 @@ json to_json(const Ensemble& ensemble) {
                  {"statistics", statistics},
                  {"runs", runs}};
   if (ensemble.verdict) record["verdict"] = results::to_json(*ensemble.verdict);
+  if (ensemble.single_blocks) record["single_blocks"] = results::to_json(*ensemble.single_blocks);
   return record;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "optimize/evaluate/evaluation.h"
+#include "results/assurance.h"
 #include "results/statistic.h"
 #include "results/verdict.h"
 
@@ -34,9 +35,10 @@ struct Ensemble {
       results::RunStatus::completed;  ///< stopped: a replicate was; failed: no replicate completed
   std::string reason;
   int wanted = 0;
-  std::vector<Evaluation> replicates;          ///< finished ones (failed included), by number
-  std::vector<results::Statistic> statistics;  ///< over the completed ones, NaN left out
-  std::optional<results::Verdict> verdict;     ///< where the design wishes something and a replicate is finished
+  std::vector<Evaluation> replicates;               ///< finished ones (failed included), by number
+  std::vector<results::Statistic> statistics;       ///< over the completed ones, NaN left out
+  std::optional<results::Verdict> verdict;          ///< where the design wishes something and a replicate is finished
+  std::optional<results::Assurance> single_blocks;  ///< as the verdict
 };
 
 /// Evaluates the replicates one after another in this process (their runs take all threads). A killed ensemble goes on

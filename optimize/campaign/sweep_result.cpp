@@ -80,7 +80,10 @@ CaseResult case_result(const SweepRun& run, const SweepCase& one) {
     for (std::size_t k = 0; k < count; ++k) changes[k].push_back(reached[k] - of_base[k]);
   }
   const results::Target& target = one.design->target;
-  if (!judged.empty() && !results::wishes(target).empty()) result.verdict = results::verdict_on(target, judged);
+  if (!judged.empty() && !results::wishes(target).empty()) {
+    result.verdict = results::verdict_on(target, judged);
+    result.single_blocks = results::assurance_of(target, judged);
+  }
   for (std::size_t k = 0; k < count; ++k) {
     result.statistics.push_back(results::statistic_of(sweep_measures()[k], values[k]));
     if (compared) result.changes.push_back(results::statistic_of(sweep_measures()[k], changes[k]));
@@ -103,6 +106,7 @@ json to_json(const SweepRun& run) {
                    {"failed", result.failed},
                    {"statistics", statistics_json(result.statistics)}};
     if (result.verdict) record["verdict"] = results::to_json(*result.verdict);
+    if (result.single_blocks) record["single_blocks"] = results::to_json(*result.single_blocks);
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }

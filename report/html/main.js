@@ -14,6 +14,7 @@ Report.verdict = (verdict, status, reason) => {
     el("strong", {class: "outcome"}, head ? head[0].toUpperCase() + head.slice(1) : "Verdict"),
     verdict.wishes.length ? null : el("p", {}, text),
     verdict.wishes.length ? el("ul", {}, verdict.wishes.map((wish) => el("li", {}, el("span", {class: "mark " + Report.markClass(wish.outcome)}, wish.outcome), el("span", {}, wish.text)))) : null,
+    verdict.blocks ? el("p", {}, verdict.blocks[0].toUpperCase() + verdict.blocks.slice(1)) : null,
     verdict.note ? el("p", {class: "note"}, verdict.note) : null);
 };
 

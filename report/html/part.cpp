@@ -20,6 +20,7 @@ using nlohmann::json;
 namespace {
 
 json text_or_empty(const json& object, const char* key) {
+  if (!object.is_object()) return "";
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? *found : json("");
 }
@@ -59,6 +60,7 @@ json verdict_facts(const json& summary) {
   return {{"outcome", text_or_empty(verdict, "outcome")},
           {"text", text_or_empty(verdict, "text")},
           {"note", text_or_empty(verdict, "note")},
+          {"blocks", text_or_empty(summary.value("single_blocks", json::object()), "text")},
           {"wishes", wishes}};
 }
 

@@ -20,7 +20,8 @@ struct Part {
   std::map<std::string, std::string> numbers;
 };
 
-/// {outcome, text, note, wishes: [{outcome, text, measure, low, high}]} of a summary; null where nothing is wished.
+/// {outcome, text, note, blocks (how many single blocks keep every wish, in words; empty of one run), wishes:
+/// [{outcome, text, measure, low, high}]} of a summary; null where nothing is wished.
 nlohmann::json verdict_facts(const nlohmann::json& summary);
 /// Rows [label, value] of the measures that the summary holds, by their group: {title, rows}.
 nlohmann::json measure_tables(const nlohmann::json& summary);

@@ -87,7 +87,7 @@ Part sweep_part(const results::SweepRecord& record) {
                 {"measured", curve_facts(record.measured)},
                 {"window", numbers_or_null(record.plateau_window)},
                 {"cases", case_rows(record)},
-                {"verdict", verdict_facts({{"verdict", record.verdict}})}};
+                {"verdict", verdict_facts(record.judged)}};
   return part;
 }
 

@@ -219,12 +219,14 @@ TEST(Report, OfOneCaseAndOfAnEnsembleHoldsTheVerdictWithItsWishes) {
       {"text", "missed: the plateau"},
       {"note", "of the mean"},
       {"wishes", {{{"outcome", "missed"}, {"text", "plateau 2.000 MPa"}, {"measure", "plateau_stress"}}}}};
+  const json blocks = {{"text", "1 of 3 single blocks keep every wish"}};
   const auto shown = [&](const fs::path& work) {
     write_report(work, folder / "r.html");
     const json found = facts_of(io::read_file(folder / "r.html")).at("verdict");
     EXPECT_EQ(found.at("outcome"), "missed");
     EXPECT_EQ(found.at("text"), "missed: the plateau");
     EXPECT_EQ(found.at("note"), "of the mean");
+    EXPECT_EQ(found.at("blocks"), "1 of 3 single blocks keep every wish");
     ASSERT_EQ(found.at("wishes").size(), 1u);
     EXPECT_EQ(found.at("wishes").at(0).at("text"), "plateau 2.000 MPa");
   };
@@ -232,6 +234,7 @@ TEST(Report, OfOneCaseAndOfAnEnsembleHoldsTheVerdictWithItsWishes) {
   json result = json::parse(io::read_file(folder / "sweep" / "result.json"));
   ASSERT_EQ(result.at("cases").size(), 1u);
   result["cases"][0]["verdict"] = verdict;
+  result["cases"][0]["single_blocks"] = blocks;
   io::write_file(folder / "sweep" / "result.json", result.dump());
   shown(folder / "sweep");
   // The picture of the sweep says the same.
@@ -246,6 +249,7 @@ TEST(Report, OfOneCaseAndOfAnEnsembleHoldsTheVerdictWithItsWishes) {
   fs::copy(data / "ensemble", folder / "ensemble", fs::copy_options::recursive);
   result = json::parse(io::read_file(folder / "ensemble" / "ensemble.json"));
   result["verdict"] = verdict;
+  result["single_blocks"] = blocks;
   io::write_file(folder / "ensemble" / "ensemble.json", result.dump());
   shown(folder / "ensemble");
 }

@@ -1,6 +1,5 @@
 // What is here: pictures are drawn whole, in every kind of file, fast, with the right pixels in the right places.
 // What is not: whether they are beautiful.
-#include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +15,7 @@
 #include "report/plot_study.h"
 #include "report/plot_sweep.h"
 #include "report/search_panel.h"
+#include "tests/report/image.h"
 #include "tests/results/synthetic_run.h"
 
 namespace perfora::report {
@@ -24,21 +24,7 @@ namespace {
 using results::testing::fresh_folder;
 using results::testing::make_run;
 using results::testing::SyntheticRun;
-
-struct Image {
-  explicit Image(const std::filesystem::path& path) : surface(cairo_image_surface_create_from_png(path.c_str())) {}
-  ~Image() { cairo_surface_destroy(surface); }
-  Image(const Image&) = delete;
-  Image& operator=(const Image&) = delete;
-  int width() const { return cairo_image_surface_get_width(surface); }
-  int height() const { return cairo_image_surface_get_height(surface); }
-  /// 0xrrggbb
-  unsigned at(int x, int y) const {
-    const unsigned char* row = cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
-    return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffffu;
-  }
-  cairo_surface_t* surface;
-};
+using testing::Image;
 
 // 1, 2, 5 times powers of ten: by hand.
 TEST(Ticks, AreRound) {
@@ -190,6 +176,8 @@ TEST(PlotRun, TakesRunsThatEndedEarlyOrHaveNoFrames) {
 
 TEST(PlotRun, SnapshotsAreIntactPeakAndLast) {
   EXPECT_THAT(snapshot_frames(small_run().run), ::testing::ElementsAre(0, 1, 7));
+  // Frames at 0, 0.9, 10, ... 60 %: two more lie at a third and two thirds of the last strain, 20 and 40 %.
+  EXPECT_THAT(snapshot_frames(small_run().run, 5), ::testing::ElementsAre(0, 1, 3, 5, 7));
   results::RunResult run;
   EXPECT_TRUE(snapshot_frames(run).empty());
   run.frames.resize(1);
@@ -325,29 +313,6 @@ TEST(Correlation, DrawsAPointACase) {
   draw(6e4, 1e4);
   EXPECT_GT(mean_row(Image(folder / "c.png"), 0x0072b2, 100), level) << "the second point has come down";
   EXPECT_THROW(plot_correlation(picture, folder / "c.gif"), io::InputError);
-}
-
-// Two rows of every frame; the page is as high as both need and shows what stands in the file.
-TEST(Collapse, ARowARun) {
-  const auto folder = fresh_folder("collapse");
-  write_run(small_run(), folder / "R.h5");
-  const results::RunResult run = results::read_run(folder / "R.h5");
-  plot_collapse({{"one", run}}, folder / "one.png", {});
-  plot_collapse({{"one", run}, {"two", run}}, folder / "two.png", {});
-  const Image one(folder / "one.png"), two(folder / "two.png");
-  EXPECT_EQ(one.width(), 1600);
-  EXPECT_GT(two.height(), one.height() + 100);
-  // The second row is the first again, but for its label: the same blocks that much lower.
-  const int lower = two.height() - one.height();
-  int equal = 0, dark = 0;
-  for (int y = 200; y < one.height() - 20; ++y)
-    for (int x = 0; x < 1600; ++x) {
-      if (two.at(x, y) == 0xffffffu) continue;
-      ++dark;
-      equal += two.at(x, y) == two.at(x, y + lower);
-    }
-  EXPECT_GT(dark, 1000);
-  EXPECT_GT(equal, 0.95 * dark);  // rounding moves the rims of some discs by a shade
 }
 
 // Runs of two designs have two colours, two runs of one design a colour and a lighter one. The page grows with the

@@ -84,6 +84,12 @@ TEST(SummaryText, Evaluation) {
 
 TEST(SummaryText, Tables) {
   EXPECT_THAT(text_of(ensemble), ContainsRegex("plateau_stress +5.294 kPa +- +312 Pa +4.9 kPa +5.6 kPa +4\n"));
+  json wished = ensemble;
+  wished["single_blocks"] = {{"text", "4 of 5 single blocks keep every wish"}};
+  EXPECT_THAT(text_of(wished), HasSubstr("Single blocks\n  4 of 5 single blocks keep every wish\n"));
+  json judged = sweep;
+  judged["cases"][1]["single_blocks"] = wished.at("single_blocks");
+  EXPECT_THAT(text_of(judged), HasSubstr("\ncase 1: 4 of 5 single blocks keep every wish\n"));
   EXPECT_THAT(
       text_of(sweep),
       AllOf(ContainsRegex("0  the design itself +2 +5 \\+- 0.25 kPa +50 %\n"),

@@ -68,6 +68,13 @@ TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
   EXPECT_EQ(cases[0].at("verdict").at("outcome"), "met");
   EXPECT_EQ(cases[1].at("verdict").at("outcome"), "not shown");
   EXPECT_EQ(cases[2].at("verdict").at("outcome"), "missed");
+  // Of the blocks themselves 311, 411 and 511 kPa keep it; 711 and 811, not 911; none of 1,111 and more. Clopper and
+  // Pearson: all of three say at least 0.025^(1/3) of all blocks.
+  const auto blocks = [&](std::size_t k) { return cases[k].at("single_blocks").at("keeping").get<int>(); };
+  EXPECT_EQ(blocks(0), 3);
+  EXPECT_EQ(blocks(1), 2);
+  EXPECT_EQ(blocks(2), 0);
+  EXPECT_NEAR(cases[0].at("single_blocks").at("probability")[0].get<double>(), std::cbrt(0.025), 1e-9);
   const std::string table = cases_csv(run);
   EXPECT_NE(table.find(",problem,outcome,"), std::string::npos);
   EXPECT_NE(table.find(",not shown,"), std::string::npos);
