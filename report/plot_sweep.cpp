@@ -62,6 +62,11 @@ double measure_width(const SweepPicture& picture) {
   return (page_width - page_margin - measures_left - (count - 1.0) * measure_gap) / count;
 }
 
+/// One case with nothing beside it: the names of the curves say which, and each of its blocks has a thin curve.
+bool is_alone(const SweepPicture& picture, const SweepGroup& group) {
+  return group.points.size() == 1 && picture.base.empty();
+}
+
 /// How the values stand below the panels of measures.
 enum class Naming {
   lying,
@@ -74,6 +79,7 @@ std::size_t longest_place(const SweepGroup& group) {
   return longest;
 }
 Naming naming_of(const SweepPicture& picture, const SweepGroup& group) {
+  if (is_alone(picture, group)) return Naming::lying;
   const std::size_t longest = longest_place(group);
   const double room = measure_width(picture) / static_cast<double>(group.places.size());
   if (character_width * static_cast<double>(longest) + 8.0 <= room) return Naming::lying;
@@ -135,6 +141,7 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   const double scale = measure_unit(picture.measures[measure]).scale;
   Axis x{-0.6, static_cast<double>(group.places.size()) - 0.4, group.label};
   x.choices = group.places;
+  if (is_alone(picture, group)) x.choices = {""};
   if (naming_of(picture, group) == Naming::numbered)
     for (std::size_t p = 0; p < x.choices.size(); ++p) x.choices[p] = std::to_string(p + 1);
   Chart chart(canvas, box, x, measure_axis(picture, group, measure));
@@ -173,11 +180,10 @@ void draw_measure(Canvas& canvas, const SweepPicture& picture, const SweepGroup&
   }
 }
 
-void draw_curve(Chart& chart, const std::vector<results::Curve>& curves, const Colour& colour, double thickness) {
-  results::Curve mean = smoothed_mean(curves);
-  for (double& value : mean.strain) value *= 100.0;
-  for (double& value : mean.stress) value = std::max(1e-3 * value, 0.5 * chart.y_axis().low);
-  chart.polyline(mean.strain, mean.stress, colour, thickness);
+void draw_curve(Chart& chart, results::Curve curve, const Colour& colour, double thickness) {
+  for (double& value : curve.strain) value *= 100.0;
+  for (double& value : curve.stress) value = std::max(1e-3 * value, 0.5 * chart.y_axis().low);
+  chart.polyline(curve.strain, curve.stress, colour, thickness);
 }
 
 double median_of(std::vector<double> values) {
@@ -198,6 +204,11 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
       }
       if (!mean.stress.empty()) lowest_median = std::min(lowest_median, 1e-3 * median_of(mean.stress));
     }
+  if (is_alone(picture, group))
+    for (const results::Curve& curve : group.points.front().curves) {
+      for (const double strain : curve.strain) end = std::max(end, 100.0 * strain);
+      for (const double stress : curve.stress) highest = std::max(highest, 1e-3 * stress);
+    }
   for (const results::Curve& curve : picture.measured)
     for (std::size_t k = 0; k < curve.strain.size(); ++k) {
       end = std::max(end, 100.0 * curve.strain[k]);
@@ -216,8 +227,13 @@ void draw_curves(Canvas& canvas, const SweepPicture& picture, const SweepGroup& 
                           : Axis{0.0, 1.05 * highest, "stress (kPa)"};
   Chart chart(canvas, box, {0.0, std::ceil(end), "engineering strain (%)"}, stress);
   chart.draw_axes();
-  for (const SweepPoint& base : picture.base) draw_curve(chart, base.curves, palette::soft_ink, 1.4);
-  for (const SweepPoint& point : group.points) draw_curve(chart, point.curves, colour_of(group, point, true), 2.2);
+  for (const SweepPoint& base : picture.base) draw_curve(chart, smoothed_mean(base.curves), palette::soft_ink, 1.4);
+  for (const SweepPoint& point : group.points) {
+    const Colour colour = colour_of(group, point, true);
+    if (is_alone(picture, group) && point.curves.size() > 1)
+      for (const results::Curve& curve : point.curves) draw_curve(chart, curve, mix(colour, palette::paper, 0.55), 0.9);
+    draw_curve(chart, smoothed_mean(point.curves), colour, 2.2);
+  }
   draw_measured(chart, picture.measured, {100.0, 1e-3}, 0.5 * stress.low);
 }
 
@@ -240,6 +256,8 @@ void draw_names(Canvas& canvas, const SweepPicture& picture, const SweepGroup& g
   if (!colours_are_places(group))
     for (std::size_t s = 0; s < group.series.size(); ++s)
       add(group.series[s], palette::series()[s % palette::series().size()]);
+  else if (is_alone(picture, group))
+    add(group.places.front() + (group.points.front().curves.size() > 1 ? " (mean; thin: each block)" : ""), ramp(0, 1));
   else if (naming_of(picture, group) != Naming::numbered)
     for (std::size_t p = 0; p < group.places.size(); ++p) add(group.places[p], ramp(p, group.places.size()));
   if (!picture.base.empty()) add("the design itself", palette::soft_ink);

@@ -43,8 +43,9 @@ struct SweepPicture {
   std::vector<results::Curve> measured;  ///< drawn thin beside the curves of every group, under their names
 };
 
-/// Draws it, 1600 pixels wide, a row a group: mean curves (logarithmic stress), then every result with its replicates
-/// (small), their mean and its 95 % interval. Throws io::InputError for an extension other than .png, .svg, .pdf.
+/// Draws it, 1600 pixels wide, a row a group: mean curves (of a single case each block's too), then every result with
+/// its replicates (small), their mean and its 95 % interval. Throws io::InputError for an extension other than .png,
+/// .svg, .pdf.
 void plot_sweep(const SweepPicture& picture, const std::filesystem::path& out);
 
 }  // namespace perfora::report

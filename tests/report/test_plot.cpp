@@ -268,6 +268,36 @@ TEST(Sweep, DrawsGroupsWithTheirResults) {
   EXPECT_THROW(plot_sweep(picture, folder / "full.gif"), io::InputError);
 }
 
+// Two blocks at 100 and 300 kPa: three level blue lines, of both and of their mean, where nothing stands beside them.
+TEST(Sweep, OneCaseShowsTheCurveOfEachBlock) {
+  const auto folder = fresh_folder("sweep_alone");
+  SweepPicture picture;
+  picture.measures = {"plateau_stress"};
+  SweepGroup group;
+  group.series = {""};
+  group.places = {"alone"};
+  const results::Curve low{{0.0, 0.2, 0.4}, {1e5, 1e5, 1e5}}, high{{0.0, 0.2, 0.4}, {3e5, 3e5, 3e5}};
+  group.points.push_back({0, 0, {low, high}, {{{1e5, 3e5}, 2e5, NAN}}});
+  picture.groups = {group};
+  const auto level_lines = [&] {
+    plot_sweep(picture, folder / "s.png");
+    const Image image(folder / "s.png");
+    int lines = 0;
+    bool before = false;
+    for (int y = 150; y < image.height() - 100; ++y) {
+      int blue = 0;
+      for (int x = 130; x < 560; ++x) blue += (image.at(x, y) & 0xffu) > (image.at(x, y) >> 16) + 20u;
+      lines += blue > 300 && !before;
+      before = blue > 300;
+    }
+    return lines;
+  };
+  EXPECT_EQ(level_lines(), 3);
+  picture.groups[0].places.push_back("another");
+  picture.groups[0].points.push_back({1, 0, {}, {{{}, NAN, NAN}}});
+  EXPECT_EQ(level_lines(), 1) << "beside others its mean alone";
+}
+
 // Names that would take more of the page than the panels stand in a list, a line each, however long they are.
 TEST(Sweep, LongNamesStandInAList) {
   const auto folder = fresh_folder("sweep_names");
