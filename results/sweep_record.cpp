@@ -59,7 +59,8 @@ SweepRecord from_object(const json& object, const fs::path& file) {
   record.replicates = object.value("replicates", 0);
   // Older files do not say which: the two that every sweep is made for.
   record.measures = object.value("measures", std::vector<std::string>{"first_peak_stress", "plateau_stress"});
-  record.plateau_window = object.value("plateau_window", std::vector<double>());
+  if (const json window = object.value("plateau_window", json()); window.is_array())
+    record.plateau_window = window.get<std::vector<double>>();
   record.wishes = wishes_from_json(object.value("wishes", json::array()));
   std::vector<std::string> columns;
   for (const json& one : object.at("cases")) {

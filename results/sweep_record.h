@@ -51,7 +51,7 @@ struct SweepRecord {
   std::vector<SweepCase> cases;
   std::vector<Wish> wishes;  ///< of the design
   /// Engineering strains between which the plateau is taken, as the design says that every case starts from; empty
-  /// where an older program left them out.
+  /// for a found plateau, and where an older program left them out.
   std::vector<double> plateau_window;
   /// {verdict, single_blocks} as results::to_json() writes them, of an ensemble or of a sweep of one case, where the
   /// design wishes something and a run was judged; else empty. Of several cases each has its own, in cases.csv.

@@ -110,23 +110,22 @@ json to_json(const SweepRun& run) {
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }
+  const Design& start = run.sweep().start->design();
   json record = {
       {"schema", results::sweep_schema},
       {"status", results::status_name(run.status())},
       {"reason", run.reason()},
-      {"seeds", to_json(run.sweep().start->design().seeds.effective(0))},
+      {"seeds", to_json(start.seeds.effective(0))},
       {"results_version", results_version},
       {"replicates", run.sweep().keys.replicates},
       {"runs", run.sweep().runs()},
       {"left_out", run.sweep().left_out},
       {"measures", run.sweep().measures},
-      {"plateau_window",
-       {run.sweep().start->design().measures.plateau_start, run.sweep().start->design().measures.plateau_end}},
+      {"plateau_window", window_json(results::with_window_of(start.target, start.measures))},
       {"cases", cases},
       {"performance",
        {{"seconds", run.seconds()}, {"simulated_seconds", run.simulated_seconds()}, {"retries", run.retries()}}}};
-  if (const auto wishes = results::wishes(run.sweep().start->design().target); !wishes.empty())
-    record["wishes"] = results::to_json(wishes);
+  if (const auto wishes = results::wishes(start.target); !wishes.empty()) record["wishes"] = results::to_json(wishes);
   if (const auto troubles = run.troubles(); !troubles.empty()) record["troubles"] = troubles;
   return record;
 }

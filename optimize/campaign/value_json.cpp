@@ -14,4 +14,9 @@ nlohmann::json value_json(const io::Value& value) {
   return io::value_text(value);
 }
 
+nlohmann::json window_json(const results::MeasureOptions& measures) {
+  if (measures.plateau == results::PlateauPlace::found) return nullptr;
+  return {measures.plateau_start, measures.plateau_end};
+}
+
 }  // namespace perfora::optimize

@@ -11,6 +11,7 @@
 #include "io/files.h"
 #include "io/hdf5.h"
 #include "io/text.h"
+#include "optimize/campaign/value_json.h"
 #include "optimize/search/map_result.h"
 #include "optimize/search/model_record.h"
 #include "optimize/search/searcher.h"
@@ -22,11 +23,6 @@ namespace perfora::optimize {
 namespace {
 
 using nlohmann::json;
-
-json window_json(const results::MeasureOptions& measures) {
-  if (measures.plateau == results::PlateauPlace::found) return nullptr;
-  return {measures.plateau_start, measures.plateau_end};
-}
 
 std::string window_text(const results::MeasureOptions& measures) {
   if (measures.plateau == results::PlateauPlace::found) return "on the found plateau";

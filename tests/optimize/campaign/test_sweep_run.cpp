@@ -61,7 +61,8 @@ TEST_F(SweepTest, TheSameDesignIsRunOnceAndExtendedSweepsKeepWhatTheyHave) {
 // 248.4 kPa (Student, two degrees of freedom). Wished 100 to 900 kPa: zeta = 1.1 gives 411 +- 248 kPa, within; 41.1
 // gives 811 +- 248 kPa, across its upper end; 81.1 gives 1,211 +- 248 kPa, outside.
 TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
-  const std::string wish = "[set]\ntarget.plateau_stress = \"500 kPa\"\ntarget.tolerance = 0.8\n";
+  const std::string wish =
+      "[set]\ntarget.plateau_stress = \"500 kPa\"\ntarget.tolerance = 0.8\ntarget.window = [0.08, 0.23]\n";
   SweepRun run(sweep(sweep_text(wish + "[each]\nmaterial.rupture_delay = [1.1, 41.1, 81.1]\n")), options("out"));
   run.run();
   const auto cases = to_json(run).at("cases");
@@ -75,6 +76,7 @@ TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
   EXPECT_EQ(blocks(1), 2);
   EXPECT_EQ(blocks(2), 0);
   EXPECT_NEAR(cases[0].at("single_blocks").at("probability")[0].get<double>(), std::cbrt(0.025), 1e-9);
+  EXPECT_EQ(to_json(run).at("plateau_window"), nlohmann::json({0.08, 0.23})) << "of the target, not of [measures]";
   const std::string table = cases_csv(run);
   EXPECT_NE(table.find(",problem,outcome,"), std::string::npos);
   EXPECT_NE(table.find(",not shown,"), std::string::npos);
