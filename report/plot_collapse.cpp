@@ -68,14 +68,14 @@ std::string row_text(const LabelledRun& row) {
 }
 
 /// A line of blocks with its captions, in whole pixels: lines alike.
-double line_height(const results::RunResult& run) {
+double height_of_line(const results::RunResult& run) {
   return std::ceil(block_width(blocks_in_line(run)) * run.height / run.width + caption_height);
 }
 
 double row_height(const LabelledRun& row) {
   const std::size_t in_line = blocks_in_line(row.run);
   const std::size_t lines = (shown_frames(row.run).size() + in_line - 1) / in_line;
-  return label_height + static_cast<double>(std::max<std::size_t>(1, lines)) * line_height(row.run);
+  return label_height + static_cast<double>(std::max<std::size_t>(1, lines)) * height_of_line(row.run);
 }
 
 void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
@@ -88,7 +88,7 @@ void draw_row(Canvas& canvas, const LabelledRun& row, double top) {
     const results::FrameInfo& info = row.run.frames[shown[place]];
     const auto line = static_cast<double>(place / in_line), column = static_cast<double>(place % in_line);
     const double x = page_margin + column * (width + block_gap);
-    const double base = top + label_height + width * row.run.height / row.run.width + line * line_height(row.run);
+    const double base = top + label_height + width * row.run.height / row.run.width + line * height_of_line(row.run);
     const BlockPicture picture =
         picture_of_frame(results::read_frame(row.run, shown[place]), row.run.clipped, row.run.edges);
     const double scale = width / std::max(picture.extent_x(), row.run.width);

@@ -15,7 +15,7 @@ namespace perfora::report {
 namespace {
 
 constexpr double page_width = 1600.0, page_margin = 44.0, tallest = 900.0, top = 110.0;
-constexpr double side_panel = 1090.0, line_height = 37.0, arrow_room = 64.0;
+constexpr double side_panel = 1090.0, fact_step = 37.0, arrow_room = 64.0;
 
 using Fact = std::pair<std::string, std::string>;
 
@@ -39,7 +39,7 @@ void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, double left, dou
     canvas.text(left, y, name, {.size = 18.0, .colour = palette::soft_ink});
     canvas.text(right, y, value, {.size = 18.0, .bold = true, .align = Align::right});
     canvas.line(left, y + 11.0, right, y + 11.0, palette::grid);
-    y += line_height;
+    y += fact_step;
   }
 }
 
@@ -114,7 +114,7 @@ void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter
   const double scale = std::min(room / layout.width, (tallest - 2.0 * arrow_room) / layout.height);
   const Box box{page_margin + (wide ? 0.5 * (room - scale * layout.width) : 0.0), top + arrow_room,
                 scale * layout.width, scale * layout.height};
-  const double facts_height = line_height * static_cast<double>(facts.size());
+  const double facts_height = fact_step * static_cast<double>(facts.size());
   const double under = box.bottom() + arrow_room + 30.0;
   const double page_height = wide ? under + facts_height + 50.0 : std::max(under, top + facts_height) + 30.0;
   Canvas canvas(out, page_width, page_height);
