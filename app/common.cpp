@@ -48,9 +48,6 @@ std::string of_another_command(const std::string& flag) {
 CLI::Validator no_effect_on_results(const std::string& flag) {
   return {[flag](std::string&) { return of_another_command(flag); }, ""};
 }
-}  // namespace
-
-namespace {
 
 /// Refuses what is no Number, or one that is not `good`; `wanted` ends the message: "... is no WANTED".
 template <typename Number, typename Good>

@@ -30,7 +30,7 @@ endfunction()
 function(perfora_unity target)
   if(PERFORA_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-    # GCC 12 warns wrongly of overlapping text where "literal" + std::string is inlined (GCC bug 105651, mended in 13); joined files inline more.
+    # GCC 12 warns wrongly of overlapping text where "literal" + std::string is inlined (as in googletest issue 4108); joined files inline more.
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
       target_compile_options(${target} PRIVATE -Wno-restrict)
     endif()
