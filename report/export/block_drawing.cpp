@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "geometry/wall.h"
 #include "report/export/hole_list.h"
@@ -22,7 +23,8 @@ constexpr double margin = 10.0, binding = 20.0;  // of ISO 5457: the left one is
 constexpr double beside = 34.0, below = 34.0, above = 24.0, gap = 14.0, list_width = 96.0;
 constexpr double small = 2.5, large = 3.5;  // text heights of ISO 3098
 constexpr double head_length = 2.5, head_width = 0.9;
-constexpr double row_height = 4.5, title_row = 6.0;
+constexpr double row_height = 4.5, title_row = 6.0, heading = 10.0, large_row = 6.0;
+constexpr double words_left = 28.0, words_width = list_width - words_left - 2.0;
 
 constexpr double letter = 0.78;  // mean width of a letter over the height of capitals
 
@@ -30,13 +32,23 @@ double text_width(const std::string& words, double height) {
   return letter * height * static_cast<double>(words.size());
 }
 
-std::string cut_to(const std::string& text, double width, double height) {
-  const auto most = static_cast<std::size_t>(width / (letter * height));
-  if (text.size() <= most) return text;
-  std::size_t end = most > 3 ? most - 3 : 0;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // no half of a sign
-  return text.substr(0, end) + "...";
+/// The text in lines of at most this width, broken between words; a longer word stands out.
+std::vector<std::string> wrapped_lines(const std::string& text, double width, double height) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (!lines.empty() && text_width(lines.back() + " " + word, height) <= width)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  return lines;
 }
+
+/// A row of the title block.
+struct TitleRow {
+  std::string name;
+  std::vector<std::string> lines;
+};
 
 class Sheet {
  public:
@@ -52,6 +64,8 @@ class Sheet {
       for (const Chain& chain : chains)
         fits = std::min(fits, sheet_mm * (chain.to - chain.from) / text_width(chain.words, small));
     beside_holes_ = small * std::max(least, fits);
+    wall_ = geometry::thinnest_wall(sheet.layout);
+    make_title_rows();
   }
 
   Drawing made() {
@@ -63,12 +77,61 @@ class Sheet {
     draw_pitches();
     draw_wall();
     draw_loading();
-    const double bottom = draw_title_block();
-    draw_list(bottom);
+    draw_title_block();
+    draw_list();
     return std::move(drawing_);
   }
 
  private:
+  /// Right column, from the bottom up: what stands there, broken into lines.
+  void make_title_rows() {
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {"block", fmt::format("{} x {} mm, holes through it", mm_text(width_, 3), mm_text(height_, 3))},
+        {"holes", list_.summary()}};
+    if (has_wall())
+      rows.emplace_back(
+          "thinnest wall",
+          fmt::format("t = {} mm, {}", mm_text(sheet_mm * wall_.thickness, 3),
+                      wall_.first == wall_.second ? fmt::format("hole {} and its next image", wall_.first + 1)
+                                                  : fmt::format("holes {} and {}", wall_.first + 1, wall_.second + 1)));
+    if (sheet_.layout.cut_out(true, true).size() > sheet_.layout.perforations.size())
+      rows.emplace_back("at the edges", "a hole across an edge goes on at the opposite one");
+    rows.insert(rows.end(), sheet_.notes.begin(), sheet_.notes.end());
+    for (const auto& [name, words] : rows) title_rows_.push_back({name, wrapped_lines(words, words_width, small)});
+    title_rows_.push_back({"scale", {}});  // names the sheet once it is chosen
+    title_rows_.push_back({"from", wrapped_lines(sheet_.source, words_width, small)});
+    title_lines_ = wrapped_lines(sheet_.title, list_width - 4.0, large);
+  }
+
+  static double height_of(const TitleRow& row) {
+    return title_row + row_height * (std::max<double>(1.0, static_cast<double>(row.lines.size())) - 1.0);
+  }
+
+  double title_block_height() const {
+    double height = heading + large_row * (std::max<double>(1.0, static_cast<double>(title_lines_.size())) - 1.0);
+    for (const TitleRow& row : title_rows_) height += height_of(row);
+    return height;
+  }
+
+  bool has_wall() const { return wall_.first >= 0 && wall_.thickness > 0.0; }
+
+  /// Holes that a column of the list takes from the top of the sheet down to `bottom`.
+  static std::size_t rows_of_list(double top, double bottom) {
+    return static_cast<std::size_t>(std::max(0.0, (top - row_height - 2.0 - bottom) / row_height));
+  }
+
+  /// Columns of the list on a sheet, the one above the title block first; 0: they would not take all holes.
+  std::size_t list_columns(double wide, double high) const {
+    const std::size_t holes = sheet_.layout.perforations.size();
+    const double room = wide - (binding + beside + width_ + gap + margin);
+    const auto most = static_cast<std::size_t>(std::max(0.0, std::floor(room / list_width)));
+    const std::size_t first = rows_of_list(high - margin, margin + title_block_height());
+    const std::size_t each = rows_of_list(high - margin, margin);
+    for (std::size_t columns = 1; columns <= most; ++columns)
+      if (first + (columns - 1) * each >= holes) return columns;
+    return 0;
+  }
+
   void choose_sheet() {
     constexpr std::array<std::pair<double, double>, 5> sizes = {
         {{297.0, 210.0}, {420.0, 297.0}, {594.0, 420.0}, {841.0, 594.0}, {1189.0, 841.0}}};
@@ -78,16 +141,22 @@ class Sheet {
     drawing_.width = wide;
     drawing_.height = std::max(high, 210.0);
     size_name_ = "no ISO size";
-    for (std::size_t k = sizes.size(); k-- > 0;) {
-      const auto [long_side, short_side] = sizes[k];
-      const bool landscape = wide <= long_side && high <= short_side, upright = wide <= short_side && high <= long_side;
-      if (!landscape && !upright) continue;
-      drawing_.width = landscape ? long_side : short_side;
-      drawing_.height = landscape ? short_side : long_side;
-      size_name_ = names[k];
-    }
+    // The smallest that takes the block and the whole list; where none takes the list, the smallest for the block.
+    for (const bool with_list : {false, true})
+      for (std::size_t k = sizes.size(); k-- > 0;)
+        for (const bool landscape : {false, true}) {
+          const double x = landscape ? sizes[k].first : sizes[k].second,
+                       y = landscape ? sizes[k].second : sizes[k].first;
+          if (wide > x || high > y) continue;
+          const std::size_t columns = list_columns(x, y);
+          if (with_list && columns == 0) continue;
+          drawing_.width = x;
+          drawing_.height = y;
+          size_name_ = names[k];
+          columns_ = std::max<std::size_t>(1, columns);
+        }
     right_ = drawing_.width - margin;
-    const double room_x = right_ - list_width - gap - binding - beside - width_;
+    const double room_x = right_ - static_cast<double>(columns_) * list_width - gap - binding - beside - width_;
     const double room_y = drawing_.height - 2.0 * margin - below - above - height_;
     drawing_.origin = {binding + beside + 0.5 * room_x, margin + below + 0.5 * room_y};
   }
@@ -164,10 +233,13 @@ class Sheet {
       const double extent = sheet_mm * hole.smallest_extent(), arm = std::min(2.0, 0.3 * extent);
       line(Layer::centres, {centre.x - arm, centre.y}, {centre.x + arm, centre.y});
       line(Layer::centres, {centre.x, centre.y - arm}, {centre.x, centre.y + arm});
-      const double least_for_number = 2.4 * beside_holes_;
-      if (extent < least_for_number) continue;
-      text(Layer::text, {centre.x + 0.7, centre.y - 0.7 - beside_holes_}, beside_holes_, Align::left,
-           std::to_string(k + 1));
+      // Smaller holes have smaller numbers, as long as a file viewer can show them.
+      constexpr double least_number = 0.4, beside_centre = 0.28;
+      const double height = std::min(beside_holes_, extent / 3.0);
+      if (height < least_number) continue;
+      text(Layer::text, {centre.x + beside_centre * height, centre.y - (1.0 + beside_centre) * height}, height,
+           Align::left, std::to_string(k + 1));
+      if (extent < 2.4 * beside_holes_) continue;
       if (list_.few_sizes() && list_.first_of_its_size(k)) draw_size(hole, list_.size_text(k));
     }
   }
@@ -210,9 +282,8 @@ class Sheet {
   }
 
   void draw_wall() {
-    const geometry::ThinnestWall wall = geometry::thinnest_wall(sheet_.layout);
-    if (wall.first < 0 || !(wall.thickness > 0.0)) return;
-    Point from = on_sheet(wall.from), to = on_sheet(wall.to);
+    if (!has_wall()) return;
+    Point from = on_sheet(wall_.from), to = on_sheet(wall_.to);
     const double dx = to.x - from.x, dy = to.y - from.y, size = std::hypot(dx, dy);
     const double ux = dx / size, uy = dy / size;
     constexpr double tail = 5.0;
@@ -223,11 +294,7 @@ class Sheet {
     head(Layer::dimensions, behind, to);
     text(Layer::dimensions, {0.5 * (from.x + to.x) - 1.2 * uy, 0.5 * (from.y + to.y) + 1.2 * std::abs(ux)},
          beside_holes_, std::abs(ux) > std::abs(uy) ? Align::middle : Align::right,
-         "t " + mm_text(sheet_mm * wall.thickness, 3));
-    wall_note_ =
-        fmt::format("t = {} mm, {}", mm_text(sheet_mm * wall.thickness, 3),
-                    wall.first == wall.second ? fmt::format("hole {} and its next image", wall.first + 1)
-                                              : fmt::format("holes {} and {}", wall.first + 1, wall.second + 1));
+         "t " + mm_text(sheet_mm * wall_.thickness, 3));
   }
 
   void draw_loading() {
@@ -240,54 +307,57 @@ class Sheet {
     text(Layer::text, at(0.5 * width_, height_ + foot + length + 2.0), large, Align::middle, "direction of loading");
   }
 
-  /// Right column, from the bottom up. Returns where it ends.
-  double draw_title_block() {
+  void draw_title_block() {
     const double left = right_ - list_width;
-    std::vector<std::pair<std::string, std::string>> rows = sheet_.notes;
-    rows.insert(rows.begin(),
-                {"block", fmt::format("{} x {} mm, holes through it", mm_text(width_, 3), mm_text(height_, 3))});
-    rows.insert(rows.begin() + 1, {"holes", list_.summary()});
-    if (sheet_.layout.cut_out(true, true).size() > sheet_.layout.perforations.size())
-      rows.insert(rows.begin() + 2, {"at the edges", "a hole across an edge goes on at the opposite one"});
-    if (!wall_note_.empty()) rows.insert(rows.begin() + 2, {"thinnest wall", wall_note_});
-    rows.emplace_back("scale", "1:1, " + size_name_ + ", dimensions in mm");
-    rows.emplace_back("from", sheet_.source);
+    for (TitleRow& row : title_rows_)
+      if (row.name == "scale") row.lines = {"1:1, " + size_name_ + ", dimensions in mm"};
     double y = margin;
-    for (auto row = rows.rbegin(); row != rows.rend(); ++row, y += title_row) {
-      text(Layer::text, {left + 2.0, y + 1.8}, small, Align::left, row->first);
-      constexpr double words = 28.0;
-      text(Layer::text, {left + words, y + 1.8}, small, Align::left,
-           cut_to(row->second, list_width - words - 2.0, small));
-      line(Layer::frame, {left, y + title_row}, {right_, y + title_row});
+    const auto draw_lines = [&](double from_left, const std::vector<std::string>& lines, double height, double step) {
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        text(Layer::text, {left + from_left, y + 1.8 + step * static_cast<double>(lines.size() - 1 - k)}, height,
+             Align::left, lines[k]);
+    };
+    for (auto row = title_rows_.rbegin(); row != title_rows_.rend(); ++row) {
+      draw_lines(words_left, row->lines, small, row_height);
+      const double height = height_of(*row);
+      text(Layer::text, {left + 2.0, y + 1.8 + height - title_row}, small, Align::left, row->name);
+      y += height;
+      line(Layer::frame, {left, y}, {right_, y});
     }
-    constexpr double heading = 10.0;
-    text(Layer::text, {left + 2.0, y + 3.0}, large, Align::left, cut_to(sheet_.title, list_width - 4.0, large));
-    line(Layer::frame, {left, y + heading}, {right_, y + heading});
-    line(Layer::frame, {left, margin}, {left, y + heading});
-    return y + heading;
+    draw_lines(2.0, title_lines_, large, large_row);
+    const double top = margin + title_block_height();
+    line(Layer::frame, {left, top}, {right_, top});
+    line(Layer::frame, {left, margin}, {left, top});
   }
 
-  void draw_list(double bottom) {
-    const double left = right_ - list_width, top = drawing_.height - margin;
-    constexpr std::array<double, 4> places = {12.0, 34.0, 56.0, 60.0};
-    const auto row = [&](double y, const std::array<std::string, 4>& words) {
-      for (std::size_t k = 0; k < places.size(); ++k)
-        text(Layer::text, {left + places[k], y}, small, k < 3 ? Align::right : Align::left, words[k]);
-    };
-    double y = top - row_height;
-    row(y, {"hole", "x", "y", "size"});
-    line(Layer::frame, {left, y - 1.2}, {right_, y - 1.2});
+  /// Columns from the right to the left: above the title block first, then over the whole height.
+  void draw_list() {
     const std::size_t holes = sheet_.layout.perforations.size();
-    const auto room = static_cast<std::size_t>(std::max(0.0, (y - 2.0 - bottom) / row_height));
-    const std::size_t shown = holes <= room ? holes : room > 0 ? room - 1 : 0;
-    for (std::size_t k = 0; k < shown; ++k) {
-      const geometry::Perforation& hole = sheet_.layout.perforations[k];
-      y -= row_height;
-      row(y, {std::to_string(k + 1), mm_text(sheet_mm * hole.x, 3), mm_text(sheet_mm * hole.y, 3), list_.size_text(k)});
+    const double top = drawing_.height - margin;
+    constexpr std::array<double, 4> places = {12.0, 34.0, 56.0, 60.0};
+    std::size_t next = 0;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      const double right = right_ - static_cast<double>(column) * list_width, left = right - list_width;
+      const auto row = [&](double y, const std::array<std::string, 4>& words) {
+        for (std::size_t k = 0; k < places.size(); ++k)
+          text(Layer::text, {left + places[k], y}, small, k < 3 ? Align::right : Align::left, words[k]);
+      };
+      double y = top - row_height;
+      row(y, {"hole", "x", "y", "size"});
+      line(Layer::frame, {left, y - 1.2}, {right, y - 1.2});
+      std::size_t room = rows_of_list(top, column == 0 ? margin + title_block_height() : margin);
+      const bool ends_short = column + 1 == columns_ && next + room < holes;  // a line says so
+      if (ends_short && room > 0) --room;
+      for (const std::size_t end = std::min(holes, next + room); next < end; ++next) {
+        const geometry::Perforation& hole = sheet_.layout.perforations[next];
+        y -= row_height;
+        row(y, {std::to_string(next + 1), mm_text(sheet_mm * hole.x, 3), mm_text(sheet_mm * hole.y, 3),
+                list_.size_text(next)});
+      }
+      if (ends_short)
+        text(Layer::text, {left + 2.0, y - row_height}, small, Align::left,
+             fmt::format("{} more: drawn to size, with their centres", holes - next));
     }
-    if (shown < holes)
-      text(Layer::text, {left + 2.0, y - row_height}, small, Align::left,
-           fmt::format("{} more: centres are marked, the DXF has them", holes - shown));
   }
 
   const BlockSheet& sheet_;
@@ -296,7 +366,11 @@ class Sheet {
   double beside_holes_ = small;  ///< height of the texts in and around the block, mm
   double right_ = 0.0;
   HoleList list_;
-  std::string size_name_, wall_note_;
+  geometry::ThinnestWall wall_;
+  std::vector<TitleRow> title_rows_;  ///< the lowest last
+  std::vector<std::string> title_lines_;
+  std::size_t columns_ = 1;  ///< of the list
+  std::string size_name_;
 };
 
 }  // namespace

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
+#include <tuple>
 
 #include "geometry/layout.h"
 #include "geometry/wall.h"
@@ -130,6 +133,46 @@ TEST(Drawing, SaysTheDimensionsOfTable1) {
   const std::string dxf = as_dxf(drawing);
   EXPECT_THAT(dxf, HasSubstr("%%c20"));
   for (const char c : dxf) ASSERT_LT(static_cast<unsigned char>(c), 0x80) << "R12 is ASCII";
+}
+
+// Blocks of many holes: each has a row in the list and a number beside its centre, on a larger sheet or in further
+// columns. 48 x 10 slots of a block of 480 mm need them on A0.
+TEST(Drawing, ListsEveryHole) {
+  for (const auto& [rows, columns, width] : {std::tuple{5, 8, 0.1}, std::tuple{10, 48, 0.48}}) {
+    LayoutOptions options;
+    options.width = width;
+    options.height = 0.04;
+    options.rows = rows;
+    options.columns = columns;
+    options.shape = ShapeKind::slot;
+    options.diameter = 0.0065;
+    options.breadth = 0.0015;
+    options.angle = 0.2;
+    const Drawing drawing = draw_block_sheet(sheet_of(geometry::make_layout(options, 1)));
+    const int holes = rows * columns;
+    std::multiset<std::string> texts;
+    for (const auto& text : drawing.texts) {
+      texts.insert(text.text);
+      EXPECT_THAT(text.text, ::testing::Not(HasSubstr("more: drawn"))) << holes;
+    }
+    for (int hole = 1; hole <= holes; ++hole)
+      EXPECT_GE(texts.count(std::to_string(hole)), 2U) << hole << " of " << holes;
+  }
+}
+
+// A long title and long notes are broken into lines, none is cut.
+TEST(Drawing, LongTextsAreBrokenIntoLines) {
+  BlockSheet sheet = sheet_of(geometry::make_layout(LayoutOptions(), 1));
+  sheet.title = "Mortar block for a lining that gives way at eight hundred kilopascals";
+  sheet.notes.emplace_back("mortar",
+                           "C25/30, E 8 GPa, cast in Spring from the batch that was tested in March, see report 17");
+  std::string all;
+  for (const auto& text : draw_block_sheet(sheet).texts) all += text.text + " ";
+  for (const std::string& whole : {sheet.title, sheet.notes.back().second}) {
+    std::istringstream words(whole);
+    for (std::string word; words >> word;) EXPECT_THAT(all, HasSubstr(word));
+  }
+  EXPECT_THAT(all, ::testing::Not(HasSubstr("...")));
 }
 
 // Everything stands on the sheet: blocks from 12 mm to 1.5 m.
