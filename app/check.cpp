@@ -18,6 +18,7 @@
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_run.h"
 #include "results/describe.h"
+#include "results/formats.h"
 #include "results/summary_text.h"
 
 namespace perfora::app {
@@ -76,7 +77,7 @@ int report(const CheckFlags& flags, const char* kind, const json& plan, const st
   for (std::string& text : optimize::cost_warnings(estimate)) warnings.push_back(std::move(text));
   const json expected = estimate_json(design, estimate, threads);
   if (flags.common.json) {
-    json object = {{"schema", "perfora.check/1"}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
+    json object = {{"schema", results::check_schema}, {"status", "completed"}, {"reason", ""}, {"kind", kind}};
     object.update(expected);
     if (!plan.is_null()) object[kind] = plan;
     object["warnings"] = warnings;
@@ -222,7 +223,7 @@ int check_calibration(const CheckFlags& flags) {
   const int points = optimize::most_points(calibration);
   const int tests = (tests_a_point * points + tests_at_the_end) * calibration.keys.replicates;
   if (flags.common.json) {
-    print_json({{"schema", "perfora.check/1"},
+    print_json({{"schema", results::check_schema},
                 {"status", "completed"},
                 {"reason", ""},
                 {"kind", "calibration"},

@@ -38,9 +38,6 @@ extern "C" void ask_to_stop(int) {
   ::_exit(exit_stopped);
 }
 
-/// The largest seed: 2^53 - 1, exact in JSON.
-constexpr std::int64_t largest_seed = (std::int64_t{1} << 53) - 1;
-
 /// What is wrong with a flag that changes a design, beside results.
 std::string of_another_command(const std::string& flag) {
   return flag + " changes a design, and results are taken as they are: give it to the command that makes them";
@@ -175,7 +172,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags, Uses uses) {
   if (uses == Uses::files_only) set->check(no_effect_on_results("--set"));
   auto add_seed_flag = [&](const std::string& name, std::vector<std::int64_t>& value, const std::string& help) {
     CLI::Option* seed = command.add_option(name, value, help)->group(design_group)->expected(1);
-    seed->check(whole_number_within(0, largest_seed))->type_name("N");  // 0: derive it from --seed
+    seed->check(whole_number_within(0, optimize::Seeds::largest))->type_name("N");  // 0: derive it from --seed
     if (uses == Uses::files_only) seed->check(no_effect_on_results(name));
   };
   add_seed_flag("--seed", flags.seed, "The number all random streams are derived from (default 1)");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "app/commands.h"
@@ -12,6 +11,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/hdf5.h"
+#include "io/letters.h"
 #include "io/provenance.h"
 #include "io/text.h"
 #include "optimize/evaluate/design.h"
@@ -29,17 +29,11 @@ struct DrawFlags {
   std::vector<std::string> notes;
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// What a workshop must know of the material, as far as the model says it.
 void add_notes(report::BlockSheet& sheet, const optimize::Design& design) {
   const solver::MaterialOptions& material = design.solver.material;
   const auto text = [](double value, io::Dimension dimension) { return io::quantity(value, dimension); };
-  sheet.notes.emplace_back("material", "concrete of " + text(material.density, io::Dimension::density));
+  sheet.notes.emplace_back("material", "mortar or concrete of " + text(material.density, io::Dimension::density));
   sheet.notes.emplace_back("discs", text(design.packing.mean_diameter, io::Dimension::length) + " on average");
   sheet.notes.emplace_back(
       "bonds", fmt::format("k_n {}, k_t {}", text(material.grade * material.normal_stiffness, io::Dimension::stiffness),
@@ -94,11 +88,12 @@ int draw(const DrawFlags& flags) {
   flags.common.apply();
   const fs::path input = flags.input;
   const auto output = output_or_default(flags.output, default_name(input, ".svg"));
-  const std::string extension = lower(output.extension().string());
+  const std::string extension = io::lower(output.extension().string());
   if (extension != ".svg" && extension != ".dxf")
     throw io::InputError({"--output", 0, ""}, "a drawing cannot be written as \"" + output.extension().string() + "\"",
                          ".svg or .dxf", "choose one of these extensions");
-  const bool design = lower(input.extension().string()) == ".toml";
+  const bool design = io::lower(input.extension().string()) == ".toml";
+  if (!design) flags.common.refuse_overrides(input);
   report::BlockSheet sheet = design ? sheet_of_design(flags) : sheet_of_result(input);
   if (!flags.title.empty()) sheet.title = flags.title;
   for (const std::string& note : flags.notes) sheet.notes.push_back(note_of(note));
@@ -119,7 +114,8 @@ void add_draw(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("draw", "Draw a block for the workshop, as SVG or DXF in mm, scale 1:1");
   command->add_option("FILE", flags->input, "Design file (.toml), or a run or packing file (.h5)")->required();
   command->add_option("-o,--output", flags->output, "Drawing: .svg or .dxf (default: FILE's name + .svg)");
-  command->add_option("--title", flags->title, "Title of the sheet (default: FILE's name)")->type_name("TEXT");
+  command->add_option("--title", flags->title, "Title of the sheet (default: that of the design, or FILE's name)")
+      ->type_name("TEXT");
   command
       ->add_option("--note", flags->notes, "A row of the title block, such as \"mortar=C25/30, E 8 GPa\" (repeatable)")
       ->allow_extra_args(false)

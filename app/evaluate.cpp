@@ -154,8 +154,8 @@ int evaluate_replicates(const EvaluateFlags& flags) {
   options.finished = [&](const optimize::Evaluation& evaluation, const std::filesystem::path& run_file, bool kept) {
     progress.finish("");
     if (std::filesystem::exists(run_file) && !(kept && all_beside(run_file))) write_beside(run_file);
-    io::log_info(fmt::format("replicate {} of {}{}: first peak {}, plateau {}", evaluation.replicate + 1,
-                             flags.replicates, kept ? " (was finished)" : "",
+    io::log_info(fmt::format("replicate {} ({} of {}){}: first peak {}, plateau {}", evaluation.replicate,
+                             evaluation.replicate + 1, flags.replicates, kept ? " (was finished)" : "",
                              io::quantity(evaluation.summary.first_peak_stress, io::Dimension::stress, "none"),
                              io::quantity(evaluation.summary.plateau_stress, io::Dimension::stress, "none")));
   };

@@ -10,6 +10,7 @@
 #include "app/outputs.h"
 #include "app/reports.h"
 #include "app/workers.h"
+#include "io/cancellation.h"
 #include "io/files.h"
 #include "io/text.h"
 #include "optimize/search/map_result.h"
@@ -101,6 +102,7 @@ results::RunStatus run_best(const OptimizeFlags& flags, optimize::StudyRun& run)
   options.threads = flags.common.thread_count();
   options.command_line = command_line();
   options.progress = progress.callback();
+  options.cancellation = run.options().cancellation;
   const optimize::Evaluation evaluation = optimize::evaluate_best(run, options);
   progress.finish(evaluation.reason);
   const fs::path run_file = run.options().folder / "best.h5";
@@ -130,6 +132,8 @@ int optimize_study(const OptimizeFlags& flags) {
   say_wish_is_another(options.folder, old, run.study().target);
   say_what_is_known(run);
   announce(run.study());
+  // From here on there is something to keep, while pictures are drawn, too.
+  const io::Cancellation::Attention attention = options.cancellation.attend();
   run.run();
   progress.finish(run.reason());
   auto status = run.status();

@@ -5,6 +5,7 @@
 #include "app/common.h"
 #include "io/text.h"
 #include "optimize/evaluate/pack_file.h"
+#include "optimize/evaluate/run_output.h"
 
 namespace perfora::app {
 
@@ -22,7 +23,7 @@ int pack(const PackFlags& flags) {
   const std::vector<std::string> warnings = design.validate(optimize::Purpose::block);
   check_cost(design, flags.common);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-packing.h5"));
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock = optimize::claim_pack_output(output, flags.common.force);
   log_warnings(warnings);
 
   ProgressLine progress("packing", flags.common.quiet);

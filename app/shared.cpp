@@ -40,6 +40,13 @@ bool has_finished(const fs::path& folder) {
   return !events.empty() && events.back().at("event") == "finished";
 }
 
+/// Whoever evaluates may be there before whoever asks; a folder that did not come in time is a slip of the pen.
+void require_folder(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw io::InputError({folder.string(), 0, ""}, "there is no such folder",
+                         "the folder of work that runs with --shared is wanted", "check the path");
+}
+
 int work(const SharedFlags& flags) {
   const double memory = flags.common.memory_allowed();
   const int threads = flags.common.thread_count(1);
@@ -75,6 +82,7 @@ int work(const SharedFlags& flags) {
       io::log_info(fmt::format("{}: the work has finished; {} evaluations were made here", flags.folder, evaluated));
       return exit_ok;
     case optimize::SharedEnd::idle:
+      require_folder(flags.folder);
       io::log_warning(
           fmt::format("{}: nothing to evaluate for {}; `perfora optimize ... --shared --resume` asks for "
                       "more",
@@ -107,6 +115,7 @@ int ask(const SharedFlags& flags) {
       return exit_ok;
     }
     const bool waits = Clock::now() < end && !stop_token().requested();
+    if (!waits) require_folder(flags.folder);
     if (!folder.is_open() && (!waits || has_finished(flags.folder))) {
       io::log_info(flags.folder + ": nobody asks for anything");
       return has_finished(flags.folder) ? exit_ok : exit_stopped;
@@ -139,9 +148,8 @@ int tell(const SharedFlags& flags) {
   std::optional<optimize::SharedRequest> shared;
   try {
     shared = optimize::shared_request_from_json(json::parse(io::read_file(flags.job)));
-  } catch (const json::exception& error) {
-    throw io::InputError({flags.job, 0, ""}, fmt::format("is no request: {}", error.what()),
-                         "what `perfora ask` printed", "ask again");
+  } catch (const json::exception&) {
+    throw io::InputError({flags.job, 0, ""}, "is no request", "what `perfora ask` printed", "ask again");
   }
   answer.key = shared->key;
   const json record = evaluation_in(flags.answer);

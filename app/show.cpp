@@ -35,9 +35,12 @@ void add_show(CLI::App& program, int& exit_code) {
     const std::optional<json> object = results::stored_summary(flags->file);
     if (flags->common.json && !object)
       throw io::InputError({flags->file, 0, ""}, "holds no result, so there is no JSON of it", "", "leave out --json");
-    if (object)
+    if (object) {
       print_record(*object, flags->common.json, flags->file);
-    else
+      if (const auto told = object->find("warnings"); told != object->end() && told->is_array() && !flags->common.json)
+        for (const json& one : *told)
+          if (one.is_string()) io::log_warning(one.get<std::string>());
+    } else
       print_text(results::describe_file(flags->file));
     exit_code = exit_ok;
   });

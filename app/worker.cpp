@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "io/error.h"
 #include "optimize/campaign/worker_record.h"
 
 namespace perfora::app {
@@ -78,10 +79,13 @@ int work(int threads, double memory) {
   std::string line;
   while (std::getline(std::cin, line)) {
     if (line.empty()) continue;
+    const nlohmann::json request = nlohmann::json::parse(line, nullptr, false);
+    if (!request.is_object())
+      throw io::InputError({"standard input", 0, ""}, "is no request", "a line that `perfora ask` printed is wanted",
+                           "give it such a line");
     lines.begin();
-    const auto [said, stopped] =
-        optimize::evaluate_record(nlohmann::json::parse(line), threads, stop_token(), memory,
-                                  [&lines](const results::Progress& progress) { lines.note(progress); });
+    const auto [said, stopped] = optimize::evaluate_record(
+        request, threads, stop_token(), memory, [&lines](const results::Progress& progress) { lines.note(progress); });
     lines.end(said);
     // Stopped in the middle: that evaluation stands for nothing, whoever started the worker sees its status and the
     // exit code.

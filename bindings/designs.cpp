@@ -111,6 +111,21 @@ py::list names() {
   return found;
 }
 
+/// A list of numbers, or of rows of them; what holds a word or one number here is that.
+py::object numbers_of(std::string text) {
+  if (text.empty() || text.front() != '[') {
+    try {
+      return py::float_(py::str(text));
+    } catch (const py::error_already_set&) {
+      return py::str(text);
+    }
+  }
+  const std::size_t end = text.size() - 1;  // rows stand on lines of their own, each with a comma behind it
+  const std::size_t last = text.find_last_not_of(" \n", end - 1);
+  if (last != std::string::npos && text[last] == ',') text.erase(last, 1);
+  return from_json(text);
+}
+
 py::object value_of_key(const Design& design, const std::string& name) {
   const Key* key = key_called(name);
   if (!key) return py::float_(design.number(name));  // an element of a list, or an Error that names the nearest key
@@ -124,7 +139,7 @@ py::object value_of_key(const Design& design, const std::string& name) {
       return py::bool_(text == "true");
     case KeyType::real_list:
     case KeyType::real_rows:
-      return from_json(text);
+      return numbers_of(text);
     case KeyType::text:
     case KeyType::choice:
     case KeyType::path:

@@ -13,6 +13,7 @@
 #include "geometry/layout_limits.h"
 #include "io/error.h"
 #include "io/letters.h"
+#include "io/numbers.h"
 #include "io/text.h"
 
 namespace perfora::geometry {
@@ -99,14 +100,11 @@ class DxfReader {
 
  private:
   double number(const Group& group) const {
-    std::string_view digits = group.value;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    const std::optional<double> value = io::number_from(group.value);
+    if (!value || !std::isfinite(*value))
       refuse_dxf(source_, group.line, io::in_quotes(group.value) + " is no finite number",
                  "a number behind group code " + std::to_string(group.code));
-    return value;
+    return *value;
   }
   int flags(const Group& group) const { return static_cast<int>(std::clamp(number(group), -1e6, 1e6)); }
 

@@ -10,6 +10,7 @@
 
 #include "geometry/lammps_file.h"
 #include "geometry/make_packing.h"
+#include "geometry/plane.h"
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/files.h"
@@ -241,12 +242,8 @@ Packing import_packing(const PackingOptions& options, double width, double heigh
           options.file_unit.empty()
               ? "give x, y and radius in metres, or say their unit: file_unit = \"mm\" under [packing]"
               : "correct packing.file_unit, or the cell");
-    const auto wrap = [](double value, double period) {
-      value -= period * std::floor(value / period);
-      return value >= 0.0 && value < period ? value : 0.0;
-    };
-    packing.x.push_back(wrap(discs.x[k], width));
-    packing.y.push_back(wrap(discs.y[k], height));
+    packing.x.push_back(wrapped(discs.x[k], width));
+    packing.y.push_back(wrapped(discs.y[k], height));
     packing.radius.push_back(radius);
   }
   if (discs.x.size() < 2)

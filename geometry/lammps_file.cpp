@@ -3,10 +3,10 @@
 #include "geometry/lammps_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "io/error.h"
+#include "io/numbers.h"
 #include "io/text.h"
 
 namespace perfora::geometry {
@@ -37,13 +37,9 @@ class Lines {
   double real(std::size_t word) const {
     if (word >= words_.size())
       refuse("value " + std::to_string(word + 1) + " is missing", "as many values as there are columns");
-    std::string_view digits = words_[word];
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-      refuse(io::in_quotes(words_[word]) + " is no finite number", "a number");
-    return value;
+    const std::optional<double> value = io::number_from(words_[word]);
+    if (!value || !std::isfinite(*value)) refuse(io::in_quotes(words_[word]) + " is no finite number", "a number");
+    return *value;
   }
   std::size_t count(std::size_t word, std::size_t most) const {
     const double value = real(word);

@@ -32,6 +32,7 @@ struct LayoutOptions {
   double angle = 0.0;            ///< of the axis from the horizontal, anticlockwise
   double corner_radius = 0.0;    ///< of polygons
   std::filesystem::path outline; ///< polygon: its corners
+  std::string outline_checksum;  ///< io::content_checksum() of that file
   double size_spread = 0.0;      ///< sizes lie evenly within 1 -+ this times their own, in random order
   double angle_spread = 0.0;     ///< every hole turns uniformly within -+ this
   bool herringbone = false;      ///< families in rows: every other row has the opposite angle
@@ -57,6 +58,7 @@ struct LayoutOptions {
   double minimum_wall = 0.0;  ///< every family: a thinner wall is refused; hard-core placement keeps it
   std::vector<double> holes;  ///< list: rows of x, y, diameter
   std::filesystem::path file; ///< list: CSV of holes (layout_list.h) or drawing (drawn_holes.h) instead of `holes`
+  std::string file_checksum;  ///< io::content_checksum() of that file
   std::string file_unit;      ///< of a drawing's lengths; "": as the drawing says
   std::string file_layer;     ///< of a drawing: the layer or group with the holes; "": see drawn_holes.h
 

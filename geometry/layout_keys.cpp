@@ -38,7 +38,7 @@ void describe_shape(io::Section& section, LayoutOptions& options) {
             "Radius that rounds the corners. Diamond, triangle, teardrop: the length and the breadth stay; polygon: "
             "inside "
             "its outline.")
-      .path("outline", options.outline,
+      .file("outline", options.outline, options.outline_checksum,
             "Corners of a polygon in turn, in any unit: a file of one WKT POLYGON, or CSV with columns x, y (polygon).")
       .real("size_spread", options.size_spread, Dimension::ratio, Range{0.0, 1.0, false, true},
             "Sizes at random: evenly from 1 - size_spread to 1 + size_spread times their own, shuffled by the seed.")
@@ -144,11 +144,13 @@ void describe(io::Schema& schema, LayoutOptions& options) {
       .real("minimum_wall", options.minimum_wall, Dimension::length, Range::non_negative(),
             "A thinner wall is refused; hard-core placement keeps it.")
       .real_rows("holes", options.holes, 3, Dimension::length, "Rows of x, y, diameter (list).")
-      .path("file", options.file,
-            "CSV with columns x, y, diameter in metres, instead of holes; of other shapes also shape, breadth, angle, "
-            "corner_radius, wkt. Or a drawing: .dxf, .svg, .wkt (list).")
+      .file("file", options.file, options.file_checksum,
+            "CSV with columns x, y, diameter (metres, or units in the header), instead of holes; of other shapes also "
+            "shape, "
+            "breadth, angle, corner_radius, wkt. Or a drawing: .dxf, .svg, .wkt (list).")
       .text("file_unit", options.file_unit,
-            "Unit of a drawing's lengths, such as \"mm\"; empty: as the drawing says, WKT in metres (list).")
+            "Unit of the file's plain lengths, such as \"mm\"; empty: as a drawing or the header of a CSV says, else "
+            "metres (list).")
       .text(
           "file_layer", options.file_layer,
           "Layer (DXF) or group (SVG) of a drawing that has the holes; empty: the one called holes, else every closed "

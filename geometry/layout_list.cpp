@@ -44,15 +44,29 @@ void add_usual(std::vector<Perforation>& holes, const LayoutOptions& cell, const
   add_listed(holes, cell, x, y, usual(diameter), origin);
 }
 
-/// A file that says more of its holes than x, y and diameter.
-class ShapeRows {
- public:
-  ShapeRows(const LayoutOptions& options, const Usual& usual, io::CsvTexts table)
-      : options_(options), usual_(usual), table_(std::move(table)) {}
+io::Origin unit_key(const LayoutOptions& options) {
+  return {options.file.string(), 0, "layout.file_unit"};
+}
 
-  static bool are_named(const std::vector<std::string>& names) {
-    return std::any_of(std::begin(columns), std::end(columns),
-                       [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); });
+/// A file whose first line names its columns: x, y and diameter, or more of its shapes.
+class NamedRows {
+ public:
+  NamedRows(const LayoutOptions& options, const Usual& usual, io::CsvTexts table)
+      : options_(options), usual_(usual), table_(std::move(table)) {
+    const io::Origin header{options.file.string(), 0, "layout.file"};
+    for (auto name = table_.names.begin(); name != table_.names.end(); ++name)
+      if (!name->empty() && std::find(std::next(name), table_.names.end(), *name) != table_.names.end())
+        throw io::InputError(header, "names the column " + *name + " twice", "", "remove one of them");
+    for (const char* name : {"x", "y", "diameter"})
+      if (!place_of("wkt") && !place_of(name))
+        throw io::InputError(header, std::string("has no column ") + name,
+                             "its columns are " + io::joined(table_.names) + "; x, y and diameter, or wkt, are wanted",
+                             "name the columns in the first line; drawings end in .dxf, .svg or .wkt");
+    const bool units =
+        std::any_of(table_.units.begin(), table_.units.end(), [](const auto& one) { return !one.empty(); });
+    if (units && !options.file_unit.empty())
+      throw io::InputError(unit_key(options), "the header names units already", "units in the header, or file_unit",
+                           "leave one of them out");
   }
 
   std::vector<Perforation> holes() const {
@@ -68,22 +82,33 @@ class ShapeRows {
   }
 
  private:
-  static constexpr const char* columns[] = {"shape", "breadth", "angle", "corner_radius", "wkt"};
-
   io::Origin origin(std::size_t row) const { return {options_.file.string(), table_.lines[row], "layout.file"}; }
 
-  std::string text(std::size_t row, const char* column) const {
+  std::optional<std::size_t> place_of(const char* column) const {
     const auto found = std::find(table_.names.begin(), table_.names.end(), column);
-    if (found == table_.names.end()) return {};
-    return table_.rows[row][static_cast<std::size_t>(found - table_.names.begin())];
+    if (found == table_.names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - table_.names.begin());
   }
 
-  /// Plain numbers are SI; others name their unit.
+  std::string text(std::size_t row, const char* column) const {
+    const auto place = place_of(column);
+    return place ? table_.rows[row][*place] : std::string();
+  }
+
+  /// Of the plain numbers of a column: from the header, or file_unit for lengths; "": SI.
+  std::string unit_of(const char* column, io::Dimension dimension) const {
+    const std::string& own = table_.units[*place_of(column)];
+    return own.empty() && dimension == io::Dimension::length ? options_.file_unit : own;
+  }
+
+  /// Numbers without a unit of their own are in that of the column.
   std::optional<double> number(std::size_t row, const char* column, io::Dimension dimension) const {
     const std::string field = text(row, column);
     if (field.empty()) return std::nullopt;
     const double plain = io::number_in(field);
-    const double value = std::isnan(plain) ? io::parse_quantity({field, 0}, dimension, origin(row)) : plain;
+    const std::string unit = std::isnan(plain) ? std::string() : " " + unit_of(column, dimension);
+    const double value =
+        unit.size() > 1 || std::isnan(plain) ? io::parse_quantity({field + unit, 0}, dimension, origin(row)) : plain;
     if (!std::isfinite(value))
       throw io::InputError(origin(row), std::string("column ") + column + ": " + field + " is not a finite number");
     return value;
@@ -149,6 +174,10 @@ class ShapeRows {
                            "correct this line");
     ShapeSize size;
     size.outline = std::get<std::vector<Point>>(std::move(read));
+    if (const std::string unit = unit_of("wkt", io::Dimension::length); !unit.empty()) {
+      const double scale = io::parse_quantity({"1 " + unit, 0}, io::Dimension::length, origin(row));
+      for (Point& corner : size.outline) corner = {scale * corner.x, scale * corner.y};
+    }
     size.corner_radius = number(row, "corner_radius", io::Dimension::length).value_or(0.0);
     Shape shape = made(row, ShapeKind::polygon, size);
     const Point middle = middle_of(size.outline);
@@ -177,11 +206,14 @@ std::vector<Perforation> listed_holes(const LayoutOptions& options, const Usual&
     return holes;
   }
   if (is_drawing(options.file)) return drawn_holes(options, most);
-  if (ShapeRows::are_named(io::csv_names(options.file)))
-    return ShapeRows(options, usual, io::read_csv_texts(options.file, most)).holes();
+  if (!io::csv_names(options.file).empty())
+    return NamedRows(options, usual, io::read_csv_texts(options.file, most)).holes();
   const io::CsvTable table = io::read_csv(options.file, {"x", "y", "diameter"}, most);
+  const double unit = options.file_unit.empty()
+                          ? 1.0
+                          : io::parse_quantity({"1 " + options.file_unit, 0}, io::Dimension::length, unit_key(options));
   for (std::size_t k = 0; k < table.rows(); ++k)
-    add_usual(holes, options, usual, table.columns[0][k], table.columns[1][k], table.columns[2][k],
+    add_usual(holes, options, usual, unit * table.columns[0][k], unit * table.columns[1][k], unit * table.columns[2][k],
               {options.file.string(), table.lines[k], "layout.file"});
   return holes;
 }

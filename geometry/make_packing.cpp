@@ -239,7 +239,7 @@ void describe(io::Schema& schema, PackingOptions& options) {
               "minimisation there.")
       .choice("clip", options.clip, {{"centre", ClipRule::centre}, {"whole", ClipRule::whole}},
               "A disc goes when its centre lies in a perforation, or when any of it does.")
-      .path("file", options.file,
+      .file("file", options.file, options.file_checksum,
             "Discs to import instead of making a packing: CSV (x, y, radius or diameter; metres, or units in the "
             "header), LAMMPS text dump (its last frame) or data file.")
       .choice("file_plane", options.file_plane,
@@ -254,10 +254,8 @@ PackingKey packing_key(const PackingOptions& options, double width, double heigh
   key.width = width;
   key.height = height;
   if (!options.file.empty()) {
-    char text[16];
-    std::snprintf(text, sizeof text, "crc32:%08x", io::crc32(io::read_file(options.file)));
     key.protocol = "imported";
-    key.source = text;
+    key.source = io::content_checksum(options.file);
     if (options.file_plane != ImportPlane::xy) key.source += options.file_plane == ImportPlane::xz ? " xz" : " yz";
     if (!options.file_unit.empty()) key.source += " " + options.file_unit;
     return key;

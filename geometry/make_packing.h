@@ -27,6 +27,7 @@ struct PackingOptions {
   PackingProtocol protocol = PackingProtocol::dilate;
   ClipRule clip = ClipRule::centre;
   std::filesystem::path file;  ///< discs to import instead of making a packing: import_packing
+  std::string file_checksum;   ///< io::content_checksum() of that file
   ImportPlane file_plane = ImportPlane::xy;
   std::string file_unit;  ///< of its lengths; "": as the file says
 };

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <functional>
 
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/files.h"
+#include "io/numbers.h"
 
 namespace perfora::geometry {
 namespace {
@@ -40,10 +40,9 @@ class Scanner {
   std::size_t left() const { return rest_.size(); }
   bool take(double& number) {
     skip_blanks();
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
-    if (error != std::errc{} || !std::isfinite(number)) return false;
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return true;
+    const std::optional<double> taken = io::take_number(rest_);
+    number = taken.value_or(0.0);
+    return taken && std::isfinite(number);
   }
   bool at_end() {
     skip_blanks();

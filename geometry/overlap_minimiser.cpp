@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/plane.h"
+
 namespace perfora::geometry {
 
 namespace {
@@ -35,11 +37,6 @@ constexpr std::int64_t iterations_between_checks = 10;
 
 double momentum(std::int64_t age) {
   return std::min(largest_momentum, static_cast<double>(age) / (static_cast<double>(age) + momentum_delay));
-}
-
-double inside(double value, double period) {
-  value -= period * std::floor(value / period);
-  return value < period ? value : 0.0;
 }
 
 }  // namespace
@@ -188,8 +185,8 @@ OverlapState OverlapMinimiser::minimise(double scale, const StopRule& stop) {
     }
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    discs_.x[i] = inside(places_[i].x + static_cast<double>(moved_[i].x), discs_.width);
-    discs_.y[i] = inside(places_[i].y + static_cast<double>(moved_[i].y), discs_.height);
+    discs_.x[i] = wrapped(places_[i].x + static_cast<double>(moved_[i].x), discs_.width);
+    discs_.y[i] = wrapped(places_[i].y + static_cast<double>(moved_[i].y), discs_.height);
   }
   return state;
 }

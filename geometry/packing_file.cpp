@@ -2,24 +2,12 @@
 // What is not: HDF5 itself (io/hdf5.h).
 #include "geometry/packing_file.h"
 
-#include <cstdio>
-
 #include "io/error.h"
+#include "io/text.h"
 
 namespace perfora::geometry {
 
 namespace {
-
-std::string digits(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  double back = 0.0;
-  for (int precision = 1; precision <= 17; ++precision) {
-    std::snprintf(text, sizeof text, "%.*g", precision, value);
-    if (std::sscanf(text, "%lf", &back) == 1 && back == value) break;
-  }
-  return text;
-}
 
 PackingKey read_key(const io::Hdf5Reader& file, const std::string& group) {
   PackingKey key;
@@ -183,24 +171,25 @@ PerforationLayout read_layout(const io::Hdf5Reader& file, const std::string& gro
 }
 
 void require_same_key(const PackingKey& wanted, const PackingKey& found, const std::filesystem::path& file) {
-  const auto compare = [&file](const char* field, const auto& design, const auto& stored, auto text) {
+  const auto compare = [&file](const char* key, const auto& design, const auto& stored, auto text) {
     if (design == stored) return;
-    throw io::InputError({file.string(), 0, std::string("packing.") + field},
+    throw io::InputError({file.string(), 0, key},
                          "the packing in the file has " + text(stored) + ", the design asks for " + text(design),
                          "a packing made for this design",
                          "make the packing again with perfora pack, or change the design");
   };
   const auto quoted = [](const std::string& value) { return "\"" + value + "\""; };
   const auto whole = [](auto value) { return std::to_string(value); };
-  compare("protocol", wanted.protocol, found.protocol, quoted);
-  compare("source", wanted.source, found.source, quoted);
-  compare("width", wanted.width, found.width, digits);
-  compare("height", wanted.height, found.height, digits);
-  compare("mean_diameter", wanted.mean_diameter, found.mean_diameter, digits);
-  compare("maximum_diameter", wanted.maximum_diameter, found.maximum_diameter, digits);
-  compare("size_ratio", wanted.size_ratio, found.size_ratio, digits);
-  compare("solid_fraction", wanted.solid_fraction, found.solid_fraction, digits);
-  compare("seed", wanted.seed, found.seed, whole);
+  const auto length = [](double value) { return io::shortest(io::rounded(1e3 * value)) + " mm"; };
+  compare("packing.protocol", wanted.protocol, found.protocol, quoted);
+  compare("packing.file", wanted.source, found.source, quoted);
+  compare("cell.width", wanted.width, found.width, length);
+  compare("cell.height", wanted.height, found.height, length);
+  compare("packing.mean_diameter", wanted.mean_diameter, found.mean_diameter, length);
+  compare("packing.maximum_diameter", wanted.maximum_diameter, found.maximum_diameter, length);
+  compare("packing.size_ratio", wanted.size_ratio, found.size_ratio, io::shortest);
+  compare("packing.solid_fraction", wanted.solid_fraction, found.solid_fraction, io::shortest);
+  compare("seeds.packing", wanted.seed, found.seed, whole);
   compare("algorithm_version", wanted.algorithm_version, found.algorithm_version, whole);
 }
 

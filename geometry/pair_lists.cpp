@@ -11,8 +11,6 @@
 
 namespace perfora::geometry {
 
-namespace {}  // namespace
-
 /// Everything in and around one cell of the grid, relative to the middle of that cell.
 struct PairLists::Surroundings {
   Place middle;

@@ -1,8 +1,10 @@
 // What is here: numbers, lengths and transforms of SVG. What is not: path data (svg_path.cpp).
 #include "geometry/svg_text.h"
 
-#include <charconv>
+#include <cmath>
 #include <numbers>
+
+#include "io/numbers.h"
 
 namespace perfora::geometry {
 
@@ -18,13 +20,8 @@ bool SvgScanner::at_end() {
 
 std::optional<double> SvgScanner::number() {
   skip();
-  std::string_view digits = rest_;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
-  rest_ = digits.substr(static_cast<std::size_t>(end - digits.data()));
-  return value;
+  const std::optional<double> value = io::take_number(rest_);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<bool> SvgScanner::flag() {

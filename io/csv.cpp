@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/letters.h"
+#include "io/numbers.h"
 #include "io/text.h"
 #include "io/units.h"
 
@@ -38,15 +38,6 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     if (commas && line.empty()) fields.emplace_back();  // a comma at the end leaves an empty last value
   }
   return fields;
-}
-
-/// A number, NaN and infinity included; nothing for other text.
-std::optional<double> number_of(std::string_view text) {
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
-  return number;
 }
 
 /// Walks the lines that hold something, comments cut off.
@@ -107,7 +98,7 @@ Layout layout_of(const std::vector<std::string_view>& first, const std::vector<s
   Layout layout{.fields = first.size(), .positions = {}, .columns = {}, .header = false};
   for (const std::string& name : wanted) layout.columns.push_back({.name = name, .unit = {}});
   layout.header =
-      std::none_of(first.begin(), first.end(), [](std::string_view field) { return number_of(field).has_value(); });
+      std::none_of(first.begin(), first.end(), [](std::string_view field) { return number_from(field).has_value(); });
   if (!layout.header) {
     layout.fields = wanted.size();
     for (std::size_t k = 0; k < wanted.size(); ++k) layout.positions.push_back(k);
@@ -165,7 +156,7 @@ Layout layout_of(std::string_view line, const std::vector<CsvQuantity>& wanted, 
   std::vector<Heading> headings;
   std::vector<std::string> names;
   for (const std::string& field : fields) {
-    if (number_of(field))
+    if (number_from(field))
       throw InputError(origin, "the first line does not name the columns", example, "add one (without #)");
     headings.push_back(heading_of(field));
     names.push_back(headings.back().name);
@@ -184,7 +175,7 @@ Layout layout_of(std::string_view line, const std::vector<CsvQuantity>& wanted, 
 }
 
 double value_of(std::string_view text, const Column& column, const Origin& origin) {
-  const std::optional<double> number = number_of(text);
+  const std::optional<double> number = number_from(text);
   if (number && std::isfinite(*number))
     return column.unit.empty() ? *number
                                : parse_quantity({fmt::format("{} {}", text, column.unit)}, column.dimension, origin);
@@ -295,7 +286,7 @@ std::vector<std::string> csv_names(const std::filesystem::path& path) {
   if (!lines.next()) return {};
   std::vector<std::string> names;
   for (const std::string& field : text_fields(lines.line())) {
-    if (number_of(field)) return {};
+    if (number_from(field)) return {};
     names.push_back(lower(field));
   }
   return names;
@@ -309,7 +300,11 @@ CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_r
     const Origin origin{path.string(), lines.number(), ""};
     std::vector<std::string> fields = text_fields(lines.line());
     if (table.names.empty()) {
-      for (const std::string& field : fields) table.names.push_back(lower(field));
+      for (const std::string& field : fields) {
+        Heading heading = heading_of(field);
+        table.names.push_back(std::move(heading.name));
+        table.units.push_back(std::move(heading.unit));
+      }
       continue;
     }
     if (table.rows.size() == maximum_rows)
@@ -355,9 +350,7 @@ TextTable read_text_table(const std::filesystem::path& path) {
 }
 
 double number_in(const std::string& field) {
-  char* end = nullptr;
-  const double value = std::strtod(field.c_str(), &end);
-  return field.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
+  return number_from(field).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::string csv_quoted(std::string_view text) {

@@ -43,7 +43,8 @@ std::vector<std::string> csv_names(const std::filesystem::path& path);
 
 /// A table with named columns whose fields are texts: names of shapes beside numbers.
 struct CsvTexts {
-  std::vector<std::string> names;              ///< in lower case
+  std::vector<std::string> names;              ///< in lower case, without units
+  std::vector<std::string> units;              ///< of the columns, as in "x [mm]"; "": the header names none
   std::vector<std::vector<std::string>> rows;  ///< each as long as names
   std::vector<int> lines;                      ///< as in CsvTable
 };

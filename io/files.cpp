@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <climits>
+#include <cstdio>
 #include <system_error>
 
 #include "io/descriptor.h"
@@ -173,8 +174,31 @@ std::string read_beginning(const std::filesystem::path& path, std::size_t size) 
   return start;
 }
 
+int name_exclusively(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  if (::link(temporary.c_str(), path.c_str()) == 0) return 0;
+  const int error = errno;
+  if (error == EPERM || error == EOPNOTSUPP || error == ENOSYS) {  // no links: FAT, some others
+    const int made = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
+    return made == 0 ? 0 : errno;
+  }
+  // Over a network link() may report a failure of what succeeded; the count of names tells.
+  struct stat status {};
+  return ::lstat(temporary.c_str(), &status) == 0 && status.st_nlink == 2 ? 0 : error;
+}
+
 std::uint32_t crc32(std::string_view text) {
   return crc32(text, 0);
+}
+
+void require_existing(const std::filesystem::path& path, const Origin& origin) {
+  std::error_code hidden;  // what may not be looked at is told by whoever reads it
+  if (path.empty() || std::filesystem::status(path, hidden).type() != std::filesystem::file_type::not_found) return;
+  throw InputError(origin, path.string() + " does not exist", "",
+                   "correct the path; a relative one begins at the folder of the file that names it");
+}
+
+std::string content_checksum(const std::filesystem::path& path) {
+  return fmt::format("crc32:{:08x}", crc32(read_file(path)));
 }
 
 std::uint32_t crc32(std::string_view text, std::uint32_t before) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/error.h"
+
 namespace perfora::io {
 
 /// Where a file called `path` is written: `path`, or, where that is a symbolic link, what the link names, whether that
@@ -45,7 +47,14 @@ void check_name_length(const std::filesystem::path& path);
 /// exists and is no regular file, a name that is too long, and a folder that is not writable. A folder that is missing
 /// is made by the lock. Symbolic links are followed.
 void check_output(const std::filesystem::path& path, bool force, bool resume);
+/// Gives the finished file `temporary` the name `path` unless there is one: by a link, or by renaming where the disk
+/// has no links. 0, EEXIST or another errno; `temporary` may be left.
+int name_exclusively(const std::filesystem::path& temporary, const std::filesystem::path& path);
 std::uint32_t crc32(std::string_view text);
+/// Throws InputError where a key, set at `origin`, names a file or folder that does not exist.
+void require_existing(const std::filesystem::path& path, const Origin& origin);
+/// "crc32:01234567" of what a file holds. Throws InputError as read_file() does.
+std::string content_checksum(const std::filesystem::path& path);
 /// Goes on from the CRC-32 of what stands before `text`.
 std::uint32_t crc32(std::string_view text, std::uint32_t before);
 

@@ -7,8 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
 #include <vector>
 
+#include "io/error.h"
 #include "io/hdf5_common.h"
 
 namespace perfora::io {
@@ -80,12 +84,20 @@ bool can_read(const std::filesystem::path& path, std::uint64_t size) {
 }  // namespace
 
 bool survives_reading(const std::filesystem::path& path, std::uint64_t size) {
+  const auto fail = [&](const std::string& why) {
+    throw SurroundingsError(path.string() + ": whether the file can be read was not found out (" + why +
+                            "); run the command again");
+  };
   const pid_t child = ::fork();
   if (child == 0) try_and_end(path, size);
-  if (child < 0) return false;
+  if (child < 0) fail(std::generic_category().message(errno));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return false;
+    if (errno != EINTR) fail(std::generic_category().message(errno));
+  // These come from outside. What the file itself leads to is a crash, an error or SIGALRM.
+  for (const int signal : {SIGKILL, SIGTERM, SIGINT, SIGHUP})
+    if (WIFSIGNALED(status) && WTERMSIG(status) == signal)
+      fail(std::string("the process that tried was ended by ") + ::strsignal(signal));
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

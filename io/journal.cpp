@@ -85,7 +85,7 @@ void Journal::append(std::string_view json) {
   if (!write_all(descriptor_, line) || ::fsync(descriptor_) != 0) {
     const int error = errno;
     // What was written in part must not stand before the next event; if this fails too, the next opening cuts it.
-    if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) errno = error;
+    static_cast<void>(!::ftruncate(descriptor_, static_cast<off_t>(size_)));
     fail_writing(path_, error);
   }
   size_ += line.size();

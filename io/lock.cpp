@@ -317,15 +317,9 @@ class OutputLock::Held {
     bool ok = write_all(file, own_record().dump() + "\n") && ::fsync(file) == 0;
     int error = errno;
     if (ok) {
-      // Over a network link() may report a failure of what succeeded; the count of names tells.
-      int made = ::link(temporary.c_str(), path_.c_str());
-      error = errno;
-      if (made != 0 && (error == EPERM || error == EOPNOTSUPP || error == ENOSYS)) {  // no links: FAT, some others
-        made = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE);
-        error = errno;
-      }
+      error = name_exclusively(temporary, path_);
       struct stat status {};
-      ok = ::fstat(file, &status) == 0 && (made == 0 || status.st_nlink == 2);
+      ok = ::fstat(file, &status) == 0 && error == 0;
       inode_ = status.st_ino;
       device_ = status.st_dev;
       now_ = status.st_mtime;

@@ -57,7 +57,7 @@ class Output {
   void line(spdlog::level::level_enum level, const std::string& text) {
     const std::lock_guard lock(mutex_);
     if (verbosity_ == Verbosity::quiet && level < spdlog::level::warn) return;
-    end_rewriting(true);
+    end_rewriting();
     lines_.log(level, "{}", text);
   }
 
@@ -71,7 +71,7 @@ class Output {
   /// Removes the rewriting line, if there is one.
   void clear() {
     const std::lock_guard lock(mutex_);
-    end_rewriting(true);
+    end_rewriting();
   }
 
  private:
@@ -91,9 +91,9 @@ class Output {
     return sink;
   }
 
-  void end_rewriting(bool erase) {
+  void end_rewriting() {
     if (!rewriting_) return;
-    if (erase) raw_.info("{}", clear_line);
+    raw_.info("{}", clear_line);
     rewriting_ = false;
   }
 

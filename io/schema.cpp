@@ -130,15 +130,17 @@ Value& element_at(const Key& key, Value& whole, std::string_view places, const O
   Value* at = &whole;
   for (std::size_t depth = key.type == KeyType::real_rows ? 2 : 1; depth > 0; --depth) {
     const std::optional<std::size_t> place = take_place(places);
-    auto& list = std::get<ValueList>(at->data);
+    auto* const list = std::get_if<ValueList>(&at->data);
+    if (!list)
+      throw InputError(origin, "is an element, but the key holds one value here", "", "write " + key.full_name());
     if (!place)
       throw InputError(origin, "does not name an element of the list",
                        fmt::format("{}[0]{}", key.full_name(), key.type == KeyType::real_rows ? "[0]" : ""));
-    if (*place >= list.size())
-      throw InputError(origin, fmt::format("the list has {} values here", list.size()),
-                       list.empty() ? "" : fmt::format("[0] to [{}]", list.size() - 1),
+    if (*place >= list->size())
+      throw InputError(origin, fmt::format("the list has {} values here", list->size()),
+                       list->empty() ? "" : fmt::format("[0] to [{}]", list->size() - 1),
                        "set the list first: an element must be there already");
-    at = &list[*place];
+    at = &(*list)[*place];
   }
   if (!places.empty()) throw InputError(origin, "names more than an element of the list");
   return *at;

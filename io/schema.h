@@ -73,6 +73,7 @@ struct Key {
   std::vector<std::string> choices;  ///< only for KeyType::choice
   std::string default_text;          ///< the value the field had when it was described
   std::string help;
+  bool only_where_set = false;  ///< resolved configurations leave it out at its default
   std::function<void(const Value&, const Origin&)> set;
   std::function<Value()> get;
 
@@ -89,6 +90,9 @@ enum class OneNumber { refused, taken };
 
 /// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at
 /// that moment is the default.
+/// Behind the name of a key of a file, that of the key of its content.
+inline constexpr const char* checksum_suffix = "_checksum";
+
 class Section {
  public:
   Section& real(std::string name, double& field, Dimension dimension, Range range, std::string help);
@@ -98,6 +102,10 @@ class Section {
   Section& text(std::string name, std::string& field, std::string help);
   /// A relative path is resolved against the folder of the file it is written in.
   Section& path(std::string name, std::filesystem::path& field, std::string help);
+  /// A path, resolved as above, of a file that counts by what it holds: `checksum` becomes that of the content whenever
+  /// the path is set (empty where it cannot be read: whoever reads it says so). NAME_checksum is a key as well, set
+  /// after the path: records carry it, so that what a file held then is not taken for what it holds now.
+  Section& file(std::string name, std::filesystem::path& field, std::string& checksum, std::string help);
   /// A path, resolved as above, whose file gives other keys their values: `read` is called when the key is set and sets
   /// them, so what is set later counts. The key itself stays empty: a resolved configuration names no such file.
   Section& source(std::string name, std::function<void(const std::filesystem::path&, const Origin&)> read,

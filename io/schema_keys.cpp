@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "io/error.h"
+#include "io/files.h"
 #include "io/schema.h"
 #include "io/text.h"
 #include "io/units.h"
@@ -24,7 +26,7 @@ std::string in_percent(double number, const Range& range, Dimension dimension) {
   constexpr double percent = 100.0, least = 2.0;  // 1.2 is no percent
   if (dimension != Dimension::ratio || number < least || !range.contains(number / percent))
     return "choose a value in that range";
-  return fmt::format("did you mean {0}, which is \"{1} %\"?", shortest(number / percent), shortest(number));
+  return fmt::format("did you mean {0}, which is \"{1} %\"?", shortest(rounded(number / percent)), shortest(number));
 }
 
 void check_range(double number, const Range& range, Dimension dimension, const Origin& origin,
@@ -116,6 +118,14 @@ std::filesystem::path path_of(const Value& value, const Origin& origin) {
   return std::filesystem::absolute(folder / written).lexically_normal();
 }
 
+std::string checksum_if_readable(const std::filesystem::path& path) {
+  try {
+    return path.empty() ? std::string() : content_checksum(path);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Section& Section::add(Key key) {
@@ -185,6 +195,28 @@ Section& Section::path(std::string name, std::filesystem::path& field, std::stri
   key.set = [&field](const Value& value, const Origin& origin) { field = path_of(value, origin); };
   key.get = [&field] { return Value{field.string()}; };
   return add(std::move(key));
+}
+
+Section& Section::file(std::string name, std::filesystem::path& field, std::string& checksum, std::string help) {
+  Key path = described(name, KeyType::path, std::move(help));
+  path.set = [&field, &checksum](const Value& value, const Origin& origin) {
+    field = path_of(value, origin);
+    checksum = checksum_if_readable(field);
+  };
+  path.get = [&field] { return Value{field.string()}; };
+  add(std::move(path));
+  Key content =
+      described(name + checksum_suffix, KeyType::text,
+                fmt::format("What `{}` holds, written beside results: a file that was changed since is refused, "
+                            "and one that was only moved is taken.",
+                            name));
+  content.set = [&checksum](const Value& value, const Origin& origin) {
+    if (const std::string& given = text_of(value, "a text in quotes is wanted", origin); !given.empty())
+      checksum = given;
+  };
+  content.only_where_set = true;
+  content.get = [&checksum] { return Value{checksum}; };
+  return add(std::move(content));
 }
 
 Section& Section::source(std::string name, std::function<void(const std::filesystem::path&, const Origin&)> read,

@@ -81,7 +81,7 @@ std::string Schema::toml(Names names, bool changed_only) const {
   std::string text, section;
   for (const auto& [name, help] : sections_)
     for (const Key& key : keys_) {
-      if (key.section != name || (changed_only && key.at_default())) continue;
+      if (key.section != name || ((changed_only || key.only_where_set) && key.at_default())) continue;
       const std::string written = names == Names::first ? first_name(key.full_name()) : key.full_name();
       const std::size_t dot = written.rfind('.');
       if (text.empty() || written.substr(0, dot) != section) {

@@ -1,14 +1,17 @@
 // What is here: numbers with their unit, values with as many digits as they need. What is not: layout of tables.
 #include "io/text.h"
-#include "io/units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <variant>
+
+#include "io/numbers.h"
+#include "io/units.h"
 
 namespace perfora::io {
 namespace {
@@ -75,7 +78,10 @@ struct Rounded {
     exponent = std::atoi(text.c_str() + e + 1);
   }
   /// The number times 10^-unit, nearest double.
-  double in(int unit) const { return std::strtod(fmt::format("{}e{}", mantissa, exponent - unit).c_str(), nullptr); }
+  double in(int unit) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return number_from(fmt::format("{}e{}", mantissa, exponent - unit)).value_or(exponent > unit ? infinity : 0.0);
+  }
 };
 
 std::string infinity_text(double value) {
@@ -158,7 +164,7 @@ std::string in_unit(double value, const PrintUnit& unit, std::string_view none) 
 }
 
 double scale_of(const PrintUnit& unit) {
-  return as_printed(std::strtod(fmt::format("1e{}", -unit.exponent).c_str(), nullptr), unit);
+  return as_printed(number_from(fmt::format("1e{}", -unit.exponent)).value(), unit);
 }
 
 std::string quantity(double value, Dimension dimension, std::string_view none) {
@@ -202,7 +208,7 @@ std::string duration(double seconds) {
   if (!(seconds >= 0.0)) return "unknown time";
   if (seconds > year) return "more than a year";  // an estimate that long says no more
   if (seconds < in_words)                         // times are measured and estimated to two digits at best
-    return quantity(std::strtod(fmt::format("{:.1e}", seconds).c_str(), nullptr), Dimension::time);
+    return quantity(number_from(fmt::format("{:.1e}", seconds)).value_or(0.0), Dimension::time);
   const long long whole = std::llround(seconds);
   if (whole < minute) return fmt::format("{} s", whole);
   if (whole < hour) return fmt::format("{} min {:02} s", whole / minute, whole % minute);
@@ -222,7 +228,7 @@ std::string readable(const Value& value, std::size_t most_items) {
 
 double rounded(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value;
-  return std::stod(fmt::format("{:.{}e}", value, kept_digits - 1));
+  return number_from(fmt::format("{:.{}e}", value, kept_digits - 1)).value_or(value);
 }
 
 std::string value_text(const Value& value) {

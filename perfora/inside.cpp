@@ -2,6 +2,8 @@
 #include "perfora/inside.h"
 
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "io/units.h"
 #include "results/measure_table.h"
@@ -174,6 +176,15 @@ Evaluation public_evaluation(const results::Evaluation& evaluation, const nlohma
   made.verdict = verdict_in(record);
   made.record = record.dump(2);
   return Inside::with_content(std::move(made), evaluation);
+}
+
+std::string in_words_of_the_library(std::string message) {
+  constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {" with -o", ""}, {"--resume", "`resume`"}, {"--force", "`force`"}};
+  for (const auto& [flag, option] : words)
+    for (std::size_t at = message.find(flag); at != std::string::npos; at = message.find(flag, at + option.size()))
+      message.replace(at, flag.size(), option);
+  return message;
 }
 
 }  // namespace perfora

@@ -50,6 +50,10 @@ struct Inside {
   static Evaluation with_content(Evaluation evaluation, const results::Evaluation& all);
 };
 
+/// Messages name what a user of the program types; a user of the library has options of the same names: "--resume" is
+/// `resume`, and folders are not named "with -o".
+std::string in_words_of_the_library(std::string message);
+
 /// Does `work`; what the rooms throw about something given to them comes out as Error, what they throw about the
 /// surroundings as SurroundingsError. The library prints nothing but warnings.
 template <class Work>
@@ -58,9 +62,9 @@ auto at_boundary(Work&& work) {
   try {
     return std::forward<Work>(work)();
   } catch (const io::InputError& error) {
-    throw Error(error.what());
+    throw Error(in_words_of_the_library(error.what()));
   } catch (const io::SurroundingsError& error) {
-    throw SurroundingsError(error.what());
+    throw SurroundingsError(in_words_of_the_library(error.what()));
   } catch (const std::filesystem::filesystem_error& error) {
     throw SurroundingsError(error.what());
   } catch (const nlohmann::json::exception& error) {

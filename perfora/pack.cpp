@@ -11,6 +11,7 @@
 #include "io/memory.h"
 #include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/pack_file.h"
+#include "optimize/evaluate/run_output.h"
 #include "perfora/inside.h"
 #include "results/json.h"
 #include "results/pack_file.h"
@@ -88,9 +89,7 @@ Packing pack(const Design& design, const PackOptions& options) {
     static_cast<void>(optimize::check_cost(file, thread_count(options.threads), io::usable_memory_bytes()));
     io::OutputLock lock;
     if (!options.file.empty()) {
-      io::check_output(options.file, true, false);  // that there is a folder for the lock
-      lock = io::OutputLock(options.file);
-      io::check_output(options.file, options.force, false);
+      lock = optimize::claim_pack_output(options.file, options.force);
     }
     optimize::EvaluateOptions making;
     making.threads = thread_count(options.threads);

@@ -5,6 +5,7 @@
 
 #include "io/csv.h"
 #include "io/hdf5.h"
+#include "io/text.h"
 #include "io/units.h"
 #include "perfora/inside.h"
 #include "results/campaign_folder.h"
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 /// Throws Error, naming the nearest of `names`.
 [[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names) {
   const std::string nearest = io::nearest_name(name, names);
-  throw Error("there is no " + what + " \"" + name + "\"" +
-              (nearest.empty() ? std::string() : "; did you mean \"" + nearest + "\"?"));
+  throw Error("there is no " + what + " \"" + name + "\"; " +
+              (nearest.empty() ? "there are " + io::joined(names) : "did you mean \"" + nearest + "\"?"));
 }
 
 const Column& column_of(const Table& table, const std::string& name) {

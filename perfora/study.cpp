@@ -104,6 +104,7 @@ struct Study::Content {
     work.resume = options.resume;
     work.force = options.force;
     work.cancellation = stop.token();
+    work.stopped_by = "left open by the program that asks";
     work.make_executor = [shared = exchange] { return std::make_unique<ToldExecutor>(shared); };
     run = std::make_unique<optimize::StudyRun>(read_study(file, options), std::move(work));
     thread = std::thread([this] {
@@ -124,6 +125,11 @@ struct Study::Content {
   Content& operator=(const Content&) = delete;
 
   void end() {
+    {
+      // What was told is written down, and a study in which nothing is left to ask ends by itself.
+      std::unique_lock lock(exchange->mutex);
+      exchange->changed.wait(lock, [this] { return (exchange->waits && exchange->told.empty()) || exchange->ended; });
+    }
     stop.request();
     {
       const std::lock_guard lock(exchange->mutex);

@@ -12,6 +12,7 @@
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/letters.h"
 
 namespace perfora::report {
 namespace {
@@ -30,10 +31,7 @@ cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned le
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return io::lower(path.extension().string());
 }
 
 }  // namespace

@@ -154,12 +154,18 @@ void annotate_target(Canvas& canvas, const Chart& chart, const CurveMarks& marks
   canvas.text(before ? window - width - 12.0 : chart.box().right() - width - 10.0, y - 9.0, text, style);
 }
 
-/// Above the beginning of each line, or left out where the line lies beyond the panel.
+/// Above the beginning of each line, or above its end where the first peak has its caption; left out where the line
+/// lies beyond the panel.
 void annotate_caps(Canvas& canvas, const Chart& chart, const CurveMarks& marks) {
   for (const results::StressCap& cap : marks.caps) {
     if (cap.stress * mega > chart.y_axis().high) continue;
-    canvas.text(chart.box().x + 8.0, chart.py(cap.stress * mega) - 7.0, cap.text,
-                {.size = 15.0, .colour = palette::vermilion, .halo = true});
+    constexpr double caption = 60.0;  // what the first peak's takes, above and below it
+    const double y = chart.py(cap.stress * mega);
+    const bool taken = marks.peak_stress && std::abs(y - chart.py(*marks.peak_stress * mega)) < caption;
+    const double end = chart.px(std::min(cap.until * percent, chart.x_axis().high));
+    canvas.text(
+        taken ? end - 8.0 : chart.box().x + 8.0, y - 7.0, cap.text,
+        {.size = 15.0, .colour = palette::vermilion, .align = taken ? Align::right : Align::left, .halo = true});
   }
 }
 

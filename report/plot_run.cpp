@@ -61,8 +61,15 @@ CurveMarks marks_of(const results::RunResult& run, const PlotOptions& options) {
   }
   marks.densification_strain = results::summary_number(run.summary, "densification_strain");
   marks.target_stress = options.target_stress;
-  if (const auto verdict = run.summary.find("verdict"); verdict != run.summary.end() && verdict->is_object())
+  if (const auto verdict = run.summary.find("verdict"); verdict != run.summary.end() && verdict->is_object()) {
     marks.caps = results::stress_caps_from_json(verdict->value("caps", nlohmann::json::array()));
+    for (const nlohmann::json& wish : verdict->value("wishes", nlohmann::json::array()))
+      if (wish.value("measure", "") == "plateau_stress" && wish.at("low").is_number() && wish.at("high").is_number()) {
+        const double low = wish.at("low").get<double>(), high = wish.at("high").get<double>();
+        marks.target_stress = 0.5 * (low + high);
+        marks.target_tolerance = 0.5 * (high - low);
+      }
+  }
   marks.measured = options.measured;
   return marks;
 }

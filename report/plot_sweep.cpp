@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <string>
 
+#include "io/numbers.h"
 #include "report/canvas.h"
 #include "report/chart.h"
 #include "report/measure_unit.h"
@@ -51,9 +51,9 @@ Colour colour_of(const SweepGroup& group, const SweepPoint& point, bool curve) {
 /// Whether every place is a number (with a unit or not): only then a line from one to the next says something.
 bool places_are_numbers(const SweepGroup& group) {
   return std::all_of(group.places.begin(), group.places.end(), [](const std::string& text) {
-    char* end = nullptr;
-    std::strtod(text.c_str(), &end);
-    return end != text.c_str() && (*end == '\0' || *end == ' ') && std::count(text.begin(), text.end(), ' ') <= 1;
+    std::string_view unit = text;
+    return io::take_number(unit) && (unit.empty() || unit.front() == ' ') &&
+           std::count(text.begin(), text.end(), ' ') <= 1;
   });
 }
 

@@ -68,7 +68,7 @@ Assurance assurance_of(const Target& target, std::span<const Evaluation* const> 
           block->status == RunStatus::completed && std::isfinite(value))
         values.push_back(value);
     if (values.size() >= 2 && !wish.measure->of_packing())
-      found.next.push_back({wish.measure, prediction_interval(values)});
+      found.next.push_back({wish.measure, static_cast<int>(values.size()), prediction_interval(values)});
   }
   return found;
 }
@@ -77,18 +77,22 @@ std::string in_words(const Assurance& assurance) {
   std::string text = fmt::format(
       "{} of {} single blocks keep every wish (95 %: {} of all blocks)", assurance.keeping, assurance.blocks,
       io::quantities({assurance.probability.low, assurance.probability.high}, io::Dimension::ratio, " to "));
-  for (std::size_t k = 0; k < assurance.next.size(); ++k)
-    text += fmt::format("{}{} {}", k == 0 ? "; the next block, 95 %: " : ", ", name_of(*assurance.next[k].measure),
-                        io::quantities({assurance.next[k].interval.low, assurance.next[k].interval.high},
-                                       assurance.next[k].measure->dimension, " to "));
+  for (std::size_t k = 0; k < assurance.next.size(); ++k) {
+    const Assurance::Next& one = assurance.next[k];
+    text += fmt::format("{}{} {}", k == 0 ? "; the next block, 95 %: " : ", ", name_of(*one.measure),
+                        io::quantities({one.interval.low, one.interval.high}, one.measure->dimension, " to "));
+    if (one.count < assurance.blocks) text += fmt::format(" (where it has one, as {} of these)", one.count);
+  }
   return text;
 }
 
 json to_json(const Assurance& assurance) {
   json next = json::array();
   for (const Assurance::Next& one : assurance.next)
-    next.push_back(
-        {{"measure", one.measure->key}, {"low", number(one.interval.low)}, {"high", number(one.interval.high)}});
+    next.push_back({{"measure", one.measure->key},
+                    {"blocks", one.count},
+                    {"low", number(one.interval.low)},
+                    {"high", number(one.interval.high)}});
   return {{"blocks", assurance.blocks},
           {"keeping", assurance.keeping},
           {"probability", {assurance.probability.low, assurance.probability.high}},

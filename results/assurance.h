@@ -21,8 +21,8 @@ Interval binomial_interval(int count, int trials);
 /// values are positive. Two values at least.
 Interval prediction_interval(const std::vector<double>& values);
 
-/// What a run gives for a wish of this measure or for its term in a score; NaN where it was not reached. Where the stress
-/// did not leave the plateau before the end of the run, the plateau is at least as long as the run.
+/// What a run gives for a wish of this measure or for its term in a score; NaN where it was not reached. Where the
+/// stress did not leave the plateau before the end of the run, the plateau is at least as long as the run.
 double wished_value(const Measure& measure, const Evaluation& evaluation);
 
 struct Assurance {
@@ -30,7 +30,8 @@ struct Assurance {
   Interval probability;         ///< that a block keeps all of them: binomial_interval()
   struct Next {
     const Measure* measure = nullptr;
-    Interval interval;  ///< of the next block
+    int count = 0;      ///< blocks that have the measure
+    Interval interval;  ///< of the next block that has it
   };
   std::vector<Next> next;  ///< a wish each; those of the packing, and with fewer than two values, are left out
 };

@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "results/campaign_folder.h"
+#include "results/formats.h"
 #include "results/record_reading.h"
 #include "results/statistic.h"
 
@@ -71,7 +72,7 @@ CalibrationRecord read_calibration_record(const fs::path& path) {
   if (!fs::exists(file) && fs::is_directory(path)) return from_journal(path);
   return read_from(file, 0, remedy, [&] {
     const json result = json::parse(io::read_file(file), nullptr, false);
-    if (!result.is_object() || result.value("schema", "") != "perfora.calibrate/1")
+    if (!result.is_object() || result.value("schema", "") != calibration_schema)
       throw io::InputError({file.string(), 0, ""}, "is not the result of a calibration", "", remedy);
     return from_result(result);
   });

@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/journal.h"
+#include "results/formats.h"
 
 namespace perfora::results {
 
@@ -42,10 +43,10 @@ std::string kind_in_journal(const fs::path& folder) {
 
 std::string campaign_kind(const fs::path& folder) {
   if (std::string kind = kind_in_journal(folder); !kind.empty()) return kind;
-  static const std::map<std::string, std::string> kinds = {{"perfora.optimize/1", "study"},
-                                                           {"perfora.sweep/1", "sweep"},
-                                                           {"perfora.ensemble/1", "ensemble"},
-                                                           {"perfora.calibrate/1", "calibration"}};
+  static const std::map<std::string, std::string> kinds = {{study_schema, "study"},
+                                                           {sweep_schema, "sweep"},
+                                                           {ensemble_schema, "ensemble"},
+                                                           {calibration_schema, "calibration"}};
   for (const char* name : {"result.json", "ensemble.json"}) {
     if (!fs::exists(folder / name)) continue;
     const json result = json::parse(io::read_file(folder / name), nullptr, false);

@@ -15,5 +15,10 @@ inline constexpr const char* checkpoint_format = "perfora.checkpoint/5";
 inline constexpr const char* evaluation_schema = "perfora.evaluate/1";
 inline constexpr const char* ensemble_schema = "perfora.ensemble/1";
 inline constexpr const char* sweep_schema = "perfora.sweep/1";
+inline constexpr const char* tolerance_schema = "perfora.tolerance/1";
+inline constexpr const char* study_schema = "perfora.optimize/1";
+inline constexpr const char* map_schema = "perfora.map/1";
+inline constexpr const char* calibration_schema = "perfora.calibrate/1";
+inline constexpr const char* check_schema = "perfora.check/1";
 
 }  // namespace perfora::results

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "results/history.h"
+
 namespace perfora::results {
 namespace {
 
@@ -56,11 +58,10 @@ Samples thinned(const std::vector<double>& strain, const std::vector<double>& sm
 
 std::optional<StrainInterval> found_plateau(const std::vector<double>& all_strains, const std::vector<double>& all,
                                             double from, double to, const MeasureOptions& options) {
-  constexpr double rounding = 1e-9;  // strains of a path are good to rounding
   const auto [strain, smooth] = thinned(all_strains, all, options.smoothing);
   const double widest = (1.0 + options.found_band) / (1.0 - options.found_band);
   std::optional<StrainInterval> longest;
-  double least = options.found_length - rounding;
+  double least = options.found_length - strain_rounding;
   for (std::size_t first = 0; first < strain.size(); ++first) {
     if (strain[first] < from) continue;
     if (to - strain[first] < least) break;
@@ -71,7 +72,7 @@ std::optional<StrainInterval> found_plateau(const std::vector<double>& all_strai
       if (!(interval.smallest > 0.0) || interval.largest > widest * interval.smallest) break;
       if (interval.length() < least || !interval.is_plateau(options.found_band)) continue;
       longest = StrainInterval{interval.start, interval.end};
-      least = interval.length() + rounding;
+      least = interval.length() + strain_rounding;
     }
   }
   return longest;

@@ -9,6 +9,7 @@
 #include "io/csv.h"
 #include "io/files.h"
 #include "io/text.h"
+#include "results/formats.h"
 #include "results/json.h"
 #include "results/record_reading.h"
 #include "results/wish_record.h"
@@ -18,8 +19,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-constexpr const char* map_schema = "perfora.map/1";
 
 double number_in(const json& object, const char* key) {
   const auto found = object.find(key);

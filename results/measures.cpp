@@ -21,7 +21,6 @@ constexpr double densification_factor = 1.3;  // ISO 13314: end of the plateau a
 constexpr double smoothing_width = 0.005;     // docs/user/theory.md: the 0.5 %-smoothed stress
 constexpr double rising_fraction = 0.9;       // "only rises": never falls below this share of an earlier stress
 constexpr double recovery_fraction = 0.5;     // of the first peak
-constexpr double rounding = 1e-9;             // the last row sits at the end of the window up to rounding
 constexpr double peak_prominence = 0.05;      // of the first peak: what a peak must stand above its surroundings
 
 /// Strain from which on the stress stays at or above `level`: 0 where it never was below; NaN where it is below at the
@@ -237,7 +236,7 @@ void measure_whole_curve(const History& history, const MeasuringFrame& frame, co
     const double above = above_for_good(strain, stress, frame.cap);
     summary.stroke_at_cap = std::isnan(above) ? strain.back() : above;
   }
-  if (frame.cap_strain > 0.0 && strain.back() >= frame.cap_strain - rounding)
+  if (frame.cap_strain > 0.0 && strain.back() >= frame.cap_strain - strain_rounding)
     summary.stress_until = largest_stress_until(history, summary, frame.cap_strain);
 }
 
@@ -305,7 +304,7 @@ void measure_curve(const History& history, const MeasuringFrame& frame, Summary&
   const double end = summary.plateau_end, work_end = std::min(end, strain.back());
   const double work = interpolate(strain, history.external_work, work_end);
   summary.cundall_fraction = work > 0.0 ? interpolate(strain, history.cundall, work_end) / work : nan;
-  if (strain.back() < end - rounding) return;
+  if (strain.back() < end - strain_rounding) return;
   measure_plateau(history, frame, smooth, summary.plateau_start, end, summary);
 }
 

@@ -9,7 +9,9 @@
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/files.h"
+#include "io/text.h"
 #include "results/campaign_folder.h"
+#include "results/formats.h"
 #include "results/json.h"
 #include "results/record_reading.h"
 
@@ -112,8 +114,8 @@ StudyRecord from_results(const fs::path& folder) {
   // Killed before its first results: what its table tells is shown.
   const bool any = fs::exists(folder / "result.json") || !fs::exists(folder / "evaluations.csv");
   const json result = any ? json::parse(io::read_file(folder / "result.json"), nullptr, false)
-                          : json{{"schema", "perfora.optimize/1"}, {"reason", "not finished"}};
-  if (!result.is_object() || result.value("schema", "") != "perfora.optimize/1")
+                          : json{{"schema", study_schema}, {"reason", "not finished"}};
+  if (!result.is_object() || result.value("schema", "") != study_schema)
     throw io::InputError({(folder / "result.json").string(), 0, ""}, "this is not the result of a study", "",
                          "give the folder of a `perfora optimize`");
   StudyRecord record;
@@ -136,7 +138,7 @@ StudyRecord from_results(const fs::path& folder) {
   const json best = result.value("best", json()), start = result.value("start", json());
   if (best.is_object())
     for (const auto& [key, value] : best.items())
-      record.facts.push_back({key.substr(key.find('.') + 1), value_text(best, key), value_text(start, key)});
+      record.facts.push_back({io::after_section(key), value_text(best, key), value_text(start, key)});
   record.facts.push_back({"score", value_text(result, "score"), value_text(result, "start_score")});
   add_points(record, folder / "evaluations.csv", result);
   return record;

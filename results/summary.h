@@ -15,6 +15,13 @@ namespace perfora::results {
 /// What a number holds that was not reached (NaN; written as null).
 inline constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
 
+// What a run is warned of beyond (docs/user/theory.md, "Ledger").
+inline constexpr double small_overlap = 0.05;        ///< of discs, over <d>: rubble is pressed more than discs can bear
+inline constexpr double small_kinetic_ratio = 0.05;  ///< of the elastic energy at the first peak: quasi-static
+inline constexpr double small_energy_residual = 0.01;  ///< of the work
+/// Impact stress over the plateau, at most, of a plateau that the rate does not carry; a verdict says where it is more.
+inline constexpr double honest_impact_ratio = 0.1;
+
 /// What `perfora pack` reports, beside what evaluate reports.
 struct PackSummary {
   std::int64_t discs = 0, perforations = 0;

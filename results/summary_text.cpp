@@ -10,6 +10,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
+#include "results/formats.h"
 #include "results/measure_table.h"
 #include "results/summary_labels.h"
 #include "results/summary_parts.h"
@@ -232,7 +233,8 @@ std::string optimize_text(const json& object, const KeyDimension& key_dimension)
 std::string calibrate_text(const json& object, const KeyDimension& key_dimension) {
   std::string text = "Bond parameters found\n";
   for (const auto& [name, value] : required_object(object, "found").items()) {
-    const std::string key = "material." + name;
+    // perfora.calibrate/1 has the name that this key had first.
+    const std::string key = "material." + (name == "critical_normal_stretch" ? "critical_normal_displacement" : name);
     text += line_text(key, key_value_text(key, value, key_dimension));
   }
   return text + targets_table(required_list(object, "targets")) + performance_text(object);
@@ -260,18 +262,18 @@ std::string material_text(const json& object) {
 std::string summary_text(const json& object, const KeyDimension& key_dimension, const std::string& source) {
   using Printer = std::function<std::string(const json&)>;
   const std::map<std::string, Printer> printers = {
-      {"perfora.pack/1", pack_text},
-      {"perfora.evaluate/1", evaluate_text},
-      {"perfora.elastic/1", elastic_text},
-      {"perfora.ensemble/1",
+      {pack_format, pack_text},
+      {evaluation_schema, evaluate_text},
+      {elastic_format, elastic_text},
+      {ensemble_schema,
        [](const json& o) { return single_blocks_text(o) + statistics_table(required_object(o, "statistics")); }},
-      {"perfora.sweep/1", [](const json& o) { return performance_text(o) + sweep_table(o); }},
-      {"perfora.tolerance/1", [](const json& o) { return performance_text(o) + tolerance_table(o); }},
-      {"perfora.optimize/1", [&](const json& o) { return optimize_text(o, key_dimension); }},
-      {"perfora.map/1", map_text},
-      {"perfora.calibrate/1", [&](const json& o) { return calibrate_text(o, key_dimension); }},
-      {"perfora.test/1", material_text},
-      {"perfora.check/1", [](const json& o) { return estimate_text(o); }}};
+      {sweep_schema, [](const json& o) { return performance_text(o) + sweep_table(o); }},
+      {tolerance_schema, [](const json& o) { return performance_text(o) + tolerance_table(o); }},
+      {study_schema, [&](const json& o) { return optimize_text(o, key_dimension); }},
+      {map_schema, map_text},
+      {calibration_schema, [&](const json& o) { return calibrate_text(o, key_dimension); }},
+      {material_format, material_text},
+      {check_schema, [](const json& o) { return estimate_text(o); }}};
   const std::string schema = object.is_object() ? text_in(object, "schema") : "";
   const auto printer = printers.find(schema);
   if (printer == printers.end())

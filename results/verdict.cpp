@@ -17,8 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Plateaus with more impact stress than this are carried by the rate in part (docs/user/theory.md, "Loading rate").
-constexpr double honest_impact_ratio = 0.1;
 /// From here on a miss is told as a factor, below it in percent.
 constexpr double told_as_factor = 2.0;
 
@@ -114,9 +112,11 @@ Outcome overall(const Verdict& verdict) {
   return counts && !any(verdict, Outcome::not_shown) ? Outcome::met : Outcome::not_shown;
 }
 
+/// Of single blocks each wish is shown by itself: blocks that keep one need not be those that keep another.
 std::string subject_text(const Verdict& verdict) {
-  if (verdict.statement == Statement::mean) return "the mean of blocks";
-  return io::quantity(verdict.fraction, io::Dimension::ratio) + " of single blocks";
+  if (verdict.statement == Statement::mean) return "for the mean of blocks";
+  return fmt::format("{}for {} of single blocks", verdict.wishes.size() > 1 ? "each " : "",
+                     io::quantity(verdict.fraction, io::Dimension::ratio));
 }
 
 std::string seeds_text(const Verdict& verdict) {
@@ -132,7 +132,7 @@ bool lifted_by_rate(const Verdict& verdict) {
 std::string head_of(const Verdict& verdict) {
   switch (verdict.outcome) {
     case Outcome::met:
-      return fmt::format("met{}: {}, for {} with 95 % confidence ({})",
+      return fmt::format("met{}: {}, {} with 95 % confidence ({})",
                          lifted_by_rate(verdict) ? fmt::format(" at this rate (impact stress is {} of the plateau)",
                                                                io::quantity(verdict.impact_ratio, io::Dimension::ratio))
                                                  : "",
@@ -168,6 +168,10 @@ std::string text_of(const Verdict& verdict) {
 
 std::string note_of(const Verdict& verdict) {
   std::string text = "the model is plane and without creep";
+  if (verdict.largest_overlap > small_overlap)
+    text = fmt::format("discs overlap by up to {} of <d> ({} is small); {}",
+                       io::quantity(verdict.largest_overlap, io::Dimension::ratio),
+                       io::quantity(small_overlap, io::Dimension::ratio), text);
   if (!std::isfinite(verdict.impact_ratio)) return text;
   const std::string ratio = io::quantity(verdict.impact_ratio, io::Dimension::ratio);
   return lifted_by_rate(verdict)
@@ -205,6 +209,7 @@ Verdict verdict_on(const Target& target, std::span<const Evaluation* const> repl
     window_end = std::max(window_end, evaluation->summary.plateau_end);  // a NaN is passed over
     verdict.failed += evaluation->status != RunStatus::completed;
     impact.push_back(evaluation->summary.impact_ratio);
+    verdict.largest_overlap = std::max(verdict.largest_overlap, evaluation->summary.max_overlap_in_run);
   }
   verdict.impact_ratio = statistic_of({}, impact).mean;
   for (const Wish& wish : wishes(target)) verdict.wishes.push_back(judge(wish, replicates, target, reach));
@@ -235,6 +240,7 @@ json to_json(const Verdict& verdict) {
           {"failed", verdict.failed},
           {"fresh_seeds", verdict.fresh},
           {"impact_ratio", number(verdict.impact_ratio)},
+          {"largest_overlap", number(verdict.largest_overlap)},
           {"note", verdict.note},
           {"caps", to_json(verdict.caps)},
           {"wishes", list}};

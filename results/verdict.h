@@ -49,6 +49,7 @@ struct Verdict {
   int replicates = 0, failed = 0;
   bool fresh = true;                  ///< false: on the seeds that chose the design, which flatter it
   double impact_ratio = not_reached;  ///< mean over the replicates
+  double largest_overlap = 0.0;       ///< of their whole runs, over <d>
   std::vector<WishVerdict> wishes;    ///< in the order of results::wishes(); never empty
   std::vector<StressCap> caps;        ///< of these wishes, for pictures
   std::string text;                   ///< one line: outcome, then the wishes that decide it

@@ -6,8 +6,6 @@
 #include <cmath>
 
 namespace perfora::solver {
-namespace {}  // namespace
-
 void NeighbourList::configure(std::int32_t discs, double largest_radius, double skin) {
   largest_radius_ = largest_radius;
   skin_ = skin;

@@ -143,7 +143,8 @@ void describe(io::Schema& schema, SolverOptions& options) {
       .path("curve", output.curve,
             "Measured curve (CSV: strain [%], stress [MPa]) that pictures show beside those of the runs.")
       .real("history_interval", output.history_interval, Dimension::ratio, {1e-6, 0.1, false, false},
-            "Strain between samples of the history; it changes nothing of the run.")
+            "Strain between samples of the history. It changes nothing of the run; a coarse one smooths the curve that "
+            "measures are read from.")
       .real("checkpoint_interval", output.checkpoint_interval, Dimension::time, Range::positive(),
             "Wall time between checkpoints.")
       .choice("frame_data", output.frame_data, {{"few", FrameData::few}, {"all", FrameData::all}},

@@ -22,6 +22,7 @@ enum class MassScaling { uniform_step, physical };
 /// an intact bond, so that free grains are slowed by contacts only.
 enum class CundallScope { all, translation, bonded };
 enum class FrameChoice { none, few, all };
+inline constexpr int few_frames_a_strain = 20, all_frames_a_strain = 100;  ///< every 5 %, every 1 %
 enum class FrameData { few, all };
 enum class KernelChoice { reference, openmp };
 enum class SimdChoice { automatic, avx512, avx2, portable };

@@ -46,7 +46,7 @@ std::vector<double> frame_strains(const OutputOptions& output, double until) {
     for (const double strain : output.frame_strains)
       if (strain > 0.0 && strain <= until) strains.push_back(strain);
   } else if (output.frames != FrameChoice::none) {
-    const int per_unit = output.frames == FrameChoice::all ? 100 : 20;
+    const int per_unit = output.frames == FrameChoice::all ? all_frames_a_strain : few_frames_a_strain;
     for (int k = 1; k < until * per_unit; ++k) strains.push_back(static_cast<double>(k) / per_unit);
     strains.push_back(until);
   }
@@ -114,7 +114,7 @@ class Run {
     started_ = last_checkpoint_ = Clock::now();
     if (writes()) {
       if (request_.resume && folder_.holds_checkpoint()) {
-        progress_ = folder_.resume(*simulation_, identity(), request_.in_names_of_today);
+        progress_ = folder_.resume(*simulation_, identity(), request_.comparable);
         io::log_info(fmt::format("resuming at strain {:.4f}", simulation_->strain()));
       } else {
         folder_.start_afresh();

@@ -29,11 +29,13 @@ std::string without_until(const std::string& config) {
 }
 
 /// The first line of a configuration is a comment on program, seeds and kernel; keys follow.
-void require_same_configuration(const fs::path& file, std::string stored, const std::string& now,
-                                const std::function<std::string(const std::string&)>& in_names_of_today) {
-  const std::size_t keys = stored.find('\n') + 1;
-  if (in_names_of_today) stored = stored.substr(0, keys) + in_names_of_today(stored.substr(keys));
-  if (without_until(stored) != without_until(now))
+void require_same_configuration(const fs::path& file, const std::string& stored, const std::string& now,
+                                const std::function<std::string(const std::string&)>& comparable) {
+  const auto prepared = [&](const std::string& whole) {
+    const std::size_t keys = whole.find('\n') + 1;
+    return without_until(comparable ? whole.substr(0, keys) + comparable(whole.substr(keys)) : whole);
+  };
+  if (prepared(stored) != prepared(now))
     throw io::InputError({file.string(), 0, ""}, "the unfinished run there has another configuration",
                          "--resume continues with the same design, seeds and program",
                          "use the same design, or start anew with --force");
@@ -79,7 +81,7 @@ RunFolder::Found RunFolder::look_at(std::size_t slot, const Simulation& simulati
 }
 
 RunProgress RunFolder::resume(Simulation& simulation, const std::string& configuration,
-                              const std::function<std::string(const std::string&)>& in_names_of_today) {
+                              const std::function<std::string(const std::string&)>& comparable) {
   std::vector<Found> sound, damaged;
   for (std::size_t slot = 0; slot < checkpoint_files().size(); ++slot) {
     if (!fs::exists(checkpoint_files()[slot])) continue;
@@ -96,7 +98,7 @@ RunProgress RunFolder::resume(Simulation& simulation, const std::string& configu
             [](const Found& a, const Found& b) { return a.checkpoint->number > b.checkpoint->number; });
   number_ = sound.front().checkpoint->number;
   for (const Found& found : sound)
-    require_same_configuration(found.file, found.checkpoint->configuration, configuration, in_names_of_today);
+    require_same_configuration(found.file, found.checkpoint->configuration, configuration, comparable);
   for (const Found& found : damaged)
     io::log_warning(fmt::format("a checkpoint is passed over: {}; the run goes on from {}", found.problem,
                                 sound.front().file.string()));

@@ -25,11 +25,11 @@ class RunFolder {
 
   /// Restores `simulation` from the newest checkpoint that is sound and whose frames are all there; says in a warning
   /// why one was passed over. Frames that no checkpoint can bring back are named in a warning and left out.
-  /// `configuration`: of the run now (its end aside it must be that of the checkpoint); `in_names_of_today` turns
-  /// stored keys into those of it, empty: they are. Throws io::InputError when no checkpoint is sound, with the reason
+  /// `configuration`: of the run now (its end aside it must be that of the checkpoint); `comparable` turns both
+  /// into what can be compared, empty: they are. Throws io::InputError when no checkpoint is sound, with the reason
   /// of each, and when it is that of another configuration.
   RunProgress resume(Simulation& simulation, const std::string& configuration,
-                     const std::function<std::string(const std::string&)>& in_names_of_today);
+                     const std::function<std::string(const std::string&)>& comparable);
   /// Replaces the older checkpoint, then removes the frames that neither names.
   void write_checkpoint(const Simulation& simulation, const RunProgress& progress, const std::string& configuration);
 

@@ -33,8 +33,8 @@ struct RunRequest {
   /// R.part/.
   std::filesystem::path run_file;
   bool resume = false;  ///< go on from R.part/ when it holds a checkpoint of the same configuration
-  /// Turns a stored provenance.config into the names of keys that provenance.config has here. May be empty.
-  std::function<std::string(const std::string&)> in_names_of_today;
+  /// Turns a provenance.config, stored or of now, into what tells runs apart. May be empty: it is that.
+  std::function<std::string(const std::string&)> comparable;
   const geometry::Packing* periodic = nullptr;  ///< unclipped packing for /packing in R.h5; may be null
   results::Provenance provenance;               ///< all but simd, threads and seconds
   double wall_time_limit = 0.0;   ///< s; 0: none. Reaching it writes a checkpoint and stops with status `stopped`.

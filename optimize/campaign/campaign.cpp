@@ -30,7 +30,10 @@ Campaign::Campaign() = default;
 Campaign::~Campaign() = default;
 
 void Campaign::open(WorkOptions options) {
-  lock_ = claim_work_folder(options.folder, own_files(), kind(), options.force, options.resume);
+  std::vector<std::string> files = EvaluationQueue::own_files();
+  const std::vector<std::string> of_kind = own_files();
+  files.insert(files.end(), of_kind.begin(), of_kind.end());
+  lock_ = claim_work_folder(options.folder, files, kind(), options.force, options.resume);
   json head = identity();
   head["event"] = kind();
   head["results_version"] = results_version;
@@ -84,7 +87,7 @@ json Campaign::event_of(const Asked& asked, const Answer& answer, const Answers&
 }
 
 CampaignEnd Campaign::stopped(const Evaluation*) {
-  return {results::RunStatus::stopped, "stopped by a signal; go on with --resume"};
+  return {results::RunStatus::stopped, options().stopped_by + "; go on with --resume"};
 }
 
 }  // namespace perfora::optimize

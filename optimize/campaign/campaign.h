@@ -46,8 +46,8 @@ class Campaign {
 
   /// Name of the work in messages and of the event that its journal begins with: "study".
   virtual std::string kind() const = 0;
-  /// Files and folders it writes into its folder; a name that ends in * stands for all that begin so. --force removes
-  /// these and nothing else.
+  /// Files it writes into its folder beside those of EvaluationQueue::own_files(); a name that ends in * stands for all
+  /// that begin so. --force removes these and nothing else.
   virtual std::vector<std::string> own_files() const = 0;
   /// What the journal's first event says beside `event`, `results_version` and `command_line`.
   virtual nlohmann::json identity() const = 0;

@@ -65,17 +65,13 @@ class EnsembleRun final : public Campaign {
     found.statistics = statistics_of(found.replicates);
     std::vector<const Evaluation*> judged;
     for (const Evaluation& one : found.replicates) judged.push_back(&one);
-    const results::Target& target = design_.design().target;
-    if (!judged.empty() && !results::wishes(target).empty()) {
-      found.verdict = results::verdict_on(target, judged);
-      found.single_blocks = results::assurance_of(target, judged);
-    }
+    found.judgement = results::judgement_on(design_.design().target, judged);
     return found;
   }
 
   std::string kind() const override { return "ensemble"; }
   std::vector<std::string> own_files() const override {
-    return {"journal.jsonl", "ensemble.json", "ensemble.csv", "report.html", "replicate-*"};
+    return {"ensemble.json", "ensemble.csv", "report.html", "replicate-*"};
   }
   /// Names the design whatever the number of replicates.
   json identity() const override { return {{"key", make_request(design_, 0).full_key()}}; }
@@ -172,8 +168,7 @@ json to_json(const Ensemble& ensemble) {
                  {"replicates", ensemble.wanted},
                  {"statistics", statistics},
                  {"runs", runs}};
-  if (ensemble.verdict) record["verdict"] = results::to_json(*ensemble.verdict);
-  if (ensemble.single_blocks) record["single_blocks"] = results::to_json(*ensemble.single_blocks);
+  if (ensemble.judgement) record.update(results::to_json(*ensemble.judgement));
   return record;
 }
 

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "optimize/evaluate/evaluation.h"
-#include "results/assurance.h"
+#include "results/judgement.h"
 #include "results/statistic.h"
-#include "results/verdict.h"
 
 namespace perfora::optimize {
 
@@ -35,10 +34,9 @@ struct Ensemble {
       results::RunStatus::completed;  ///< stopped: a replicate was; failed: no replicate completed
   std::string reason;
   int wanted = 0;
-  std::vector<Evaluation> replicates;               ///< finished ones (failed included), by number
-  std::vector<results::Statistic> statistics;       ///< over the completed ones, NaN left out
-  std::optional<results::Verdict> verdict;          ///< where the design wishes something and a replicate is finished
-  std::optional<results::Assurance> single_blocks;  ///< as the verdict
+  std::vector<Evaluation> replicates;           ///< finished ones (failed included), by number
+  std::vector<results::Statistic> statistics;   ///< over the completed ones, NaN left out
+  std::optional<results::Judgement> judgement;  ///< where the design wishes something and a replicate is finished
 };
 
 /// Evaluates the replicates one after another in this process (their runs take all threads). A killed ensemble goes on

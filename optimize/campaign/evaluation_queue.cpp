@@ -30,6 +30,7 @@ constexpr const char* evaluation_name = "evaluation";
 constexpr const char* trouble_name = "trouble";
 constexpr const char* runs_folder = "runs";
 constexpr const char* histories_folder = "histories";
+constexpr const char* journal_name = "journal.jsonl";
 
 /// The key that the request of a journal's evaluation has today: the program that wrote it may have known fewer keys
 /// of the design, or put more into a request's key. One that is no design of this program keeps the key it was written
@@ -66,7 +67,7 @@ int workers_for(int asked, int of_file, std::int64_t together) {
 
 EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(const json&, Answers&)>& seen)
     : options_(std::move(options)) {
-  journal_ = std::make_unique<io::Journal>(options_.folder / "journal.jsonl");
+  journal_ = std::make_unique<io::Journal>(options_.folder / journal_name);
   answers_.set_histories([folder = options_.folder](const std::string& key) -> std::optional<results::StoredHistory> {
     const std::filesystem::path file = folder / history_file(key);
     if (!std::filesystem::exists(file)) return std::nullopt;
@@ -75,12 +76,15 @@ EvaluationQueue::EvaluationQueue(WorkOptions options, const std::function<void(c
   DesignTexts designs;  // replicates share theirs
   int line = 0;
   for (const std::string& text : journal_->events())
-    results::read_from(options_.folder / "journal.jsonl", ++line,
+    results::read_from(options_.folder / journal_name, ++line,
                        "restore the file from a copy, or delete this line and all after it to go on from there", [&] {
                          const json record = json::parse(text);
                          const std::string event = record.at("event");
-                         if (event == evaluation_name && !was_trouble(record))
-                           take_evaluation(key_of(record, designs), record);
+                         if (event == evaluation_name && !was_trouble(record)) {
+                           const std::string key = key_of(record, designs);
+                           take_history(options_.folder, record.at("key"), key);
+                           take_evaluation(key, record);
+                         }
                          if (event == evaluation_name || event == trouble_name) return;
                          // One whose first event does not say it is of an earlier program.
                          if (record.contains("results_version") && record.value(run_files_kept, true))
@@ -97,17 +101,23 @@ void EvaluationQueue::note(const json& event) {
 
 void EvaluationQueue::take_over(json event, const std::filesystem::path& folder) {
   DesignTexts designs;
-  const std::filesystem::path there = folder / history_file(event.at("key").get<std::string>());
   const std::string key = key_of(event, designs);
-  const std::filesystem::path here = options_.folder / history_file(key);
-  if (std::filesystem::exists(there) && !std::filesystem::exists(here)) {
-    io::make_folders(options_.folder / histories_folder);
-    io::write_file(here, io::read_file(there));
-  }
+  take_history(folder, event.at("key"), key);
   event["key"] = key;
   event[taken_over_name] = true;
   note(event);
   take_evaluation(key, event);
+}
+
+void EvaluationQueue::take_history(const std::filesystem::path& folder, const std::string& written,
+                                   const std::string& key) const {
+  const std::filesystem::path there = folder / history_file(written), here = options_.folder / history_file(key);
+  if (!std::filesystem::exists(there) || std::filesystem::exists(here)) return;
+  io::make_folders(options_.folder / histories_folder);
+  if (folder == options_.folder)
+    std::filesystem::rename(there, here);
+  else
+    io::write_file(here, io::read_file(there));
 }
 
 void EvaluationQueue::take_evaluation(const std::string& key, const json& record) {
@@ -209,6 +219,10 @@ std::string EvaluationQueue::time_left(std::int64_t remaining) const {
   const double mean = simulated_seconds_ / timed_;
   const double parallel = std::clamp(static_cast<double>(in_flight_.size()), 1.0, static_cast<double>(workers_));
   return fmt::format("; at most {} left", io::duration(mean * static_cast<double>(remaining) / parallel));
+}
+
+std::vector<std::string> EvaluationQueue::own_files() {
+  return {journal_name, runs_folder, histories_folder, SharedFolder::name};
 }
 
 std::filesystem::path EvaluationQueue::run_file(const Request& request) {

@@ -73,6 +73,8 @@ struct WorkOptions {
   /// Requested: the workers are ended, the stop is noted in the journal, the work returns. Workers in this process stop
   /// what runs only if their evaluation was given a token, too.
   io::Cancellation cancellation;
+  /// What a request to stop means, for people.
+  std::string stopped_by = "stopped by a signal";
   /// Called a few times a second while evaluations run in other threads or processes. May be empty.
   std::function<void(const WorkProgress&)> progress;
   /// A line a finished evaluation; off where `progress` draws one line that says it all.
@@ -130,6 +132,8 @@ class EvaluationQueue {
   /// The evaluation during which work was stopped, where it said so itself.
   const std::optional<Evaluation>& interrupted() const { return interrupted_; }
 
+  /// Journal and folders that any work has in its folder, and cleans.
+  static std::vector<std::string> own_files();
   /// DIR/runs/KEY.h5, relative to the folder, by the request's full key.
   static std::filesystem::path run_file(const Request& request);
 
@@ -153,6 +157,8 @@ class EvaluationQueue {
   bool go_on_after(const Answer& answer, Executor& executor);
   std::vector<Asked> wanted_by(Campaign& campaign) const;
   void clean_folder() const;
+  /// The history of an evaluation that was written down as `written`, in this folder or another, under today's `key`.
+  void take_history(const std::filesystem::path& folder, const std::string& written, const std::string& key) const;
   void keep_history(const std::string& key, const Evaluation& evaluation) const;
   void submit(Executor& executor, const Asked& asked) const;
   void drop_run_file(const Request& request) const;

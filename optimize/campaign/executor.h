@@ -51,6 +51,10 @@ class Executor {
 /// be thread-safe when there is more than one worker.
 using Evaluate = std::function<Evaluation(const Request&)>;
 
+/// The answer to a request of this replicate: what `evaluate` gives, or what its exception means: a failed evaluation
+/// (io::InputError), one that was stopped (io::Cancelled), or a trouble (anything else).
+Answer answered(const std::string& key, int replicate, const std::function<Evaluation()>& evaluate);
+
 /// Threads of this process. A crash is the end of all of it; for tests, small jobs and callers with an evaluation of
 /// their own.
 std::unique_ptr<Executor> make_in_process_executor(Evaluate evaluate, int workers);

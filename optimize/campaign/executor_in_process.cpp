@@ -6,6 +6,7 @@
 #include <new>
 #include <thread>
 
+#include "io/cancellation.h"
 #include "io/error.h"
 #include "optimize/campaign/executor.h"
 
@@ -14,23 +15,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Answer guarded(const Evaluate& evaluate, const std::string& key, const Request& request) {
-  Answer answer;
-  answer.key = key;
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    answer.evaluation = evaluate(request);
-  } catch (const io::InputError& error) {
-    answer.evaluation = failed_evaluation(error.what(), request.replicate);
-  } catch (const std::bad_alloc&) {
-    answer.trouble = "out of memory";
-  } catch (const std::exception& error) {
-    answer.trouble = error.what();
-  }
-  answer.seconds = seconds_since(start);
-  return answer;
 }
 
 class InProcessExecutor final : public Executor {
@@ -83,7 +67,7 @@ class InProcessExecutor final : public Executor {
       Job job = std::move(queue_.front());
       queue_.pop_front();
       lock.unlock();
-      Answer answer = guarded(evaluate_, job.key, job.request);
+      Answer answer = answered(job.key, job.request.replicate, [&] { return evaluate_(job.request); });
       lock.lock();
       answers_.push_back(std::move(answer));
       changed_.notify_all();
@@ -121,6 +105,25 @@ class CallingExecutor final : public Executor {
 };
 
 }  // namespace
+
+Answer answered(const std::string& key, int replicate, const std::function<Evaluation()>& evaluate) {
+  Answer answer;
+  answer.key = key;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    answer.evaluation = evaluate();
+  } catch (const io::InputError& error) {
+    answer.evaluation = failed_evaluation(error.what(), replicate);
+  } catch (const io::Cancelled&) {
+    answer.evaluation.status = results::RunStatus::stopped;
+  } catch (const std::bad_alloc&) {
+    answer.trouble = "out of memory";
+  } catch (const std::exception& error) {
+    answer.trouble = error.what();
+  }
+  answer.seconds = seconds_since(start);
+  return answer;
+}
 
 std::unique_ptr<Executor> make_calling_executor(Evaluate evaluate) {
   return std::make_unique<CallingExecutor>(std::move(evaluate));

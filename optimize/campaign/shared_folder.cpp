@@ -1,9 +1,6 @@
 // What is here: files of requests, claims and answers. What is not: their use.
 #include "optimize/campaign/shared_folder.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
@@ -29,29 +26,31 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return found;
 }
 
-/// A failure on a network disk is tried again by whoever looks next.
-json read_json(const fs::path& path) {
+/// Nothing where it went in between, or where a network disk fails: whoever looks next tries again.
+std::optional<std::string> read_if_there(const fs::path& path) {
   try {
-    return json::parse(io::read_file(path), nullptr, false);
-  } catch (const io::InputError&) {  // it went in between
-    return json::value_t::discarded;
+    return io::read_file(path);
+  } catch (const io::InputError&) {
+    return std::nullopt;
   }
 }
 
-/// A file made by an exclusive link of a finished temporary. False: there is one.
-bool made_by_link(const fs::path& path, const std::string& text) {
+/// Discarded, too, where it is no JSON.
+json read_json(const fs::path& path) {
+  const std::optional<std::string> text = read_if_there(path);
+  return text ? json::parse(*text, nullptr, false) : json(json::value_t::discarded);
+}
+
+/// A file that appears whole. False: there is one.
+bool made_exclusively(const fs::path& path, const std::string& text) {
   const fs::path temporary = io::temporary_name(path);
   const io::Litter litter(temporary);
   io::write_file(temporary, text);
-  // Over a network link() may report a failure of what succeeded; the count of names tells.
-  int linked = ::link(temporary.c_str(), path.c_str());
-  const int error = errno;
-  struct stat status {};
-  if (linked != 0 && ::lstat(temporary.c_str(), &status) == 0 && status.st_nlink == 2) linked = 0;
+  const int error = io::name_exclusively(temporary, path);
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  if (linked != 0 && error != EEXIST) io::fail_writing(path, error);
-  return linked == 0;
+  if (error != 0 && error != EEXIST) io::fail_writing(path, error);
+  return error == 0;
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ SharedRequest shared_request_from_json(const json& record) {
   return {record.at("key").get<std::string>(), record.at("full_key").get<std::string>(), request_from_json(record)};
 }
 
-SharedFolder::SharedFolder(fs::path work) : work_(std::move(work)), shared_(work_ / "shared") {}
+SharedFolder::SharedFolder(fs::path work) : work_(std::move(work)), shared_(work_ / name) {}
 
 void SharedFolder::begin() const {
   for (const char* name : {"requests", "claims", "events", "progress"}) io::make_folders(shared_ / name);
@@ -89,8 +88,10 @@ std::optional<Answer> SharedFolder::delivered(const std::string& key, const Requ
   const fs::path path = event_file(key);
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
-  const json event = read_json(path);
+  const std::optional<std::string> text = read_if_there(path);
+  if (!text) return std::nullopt;
   try {
+    const json event = json::parse(*text);
     if (event.at("full_key") != request.full_key()) {
       remove_event(key);
       return std::nullopt;
@@ -184,7 +185,7 @@ bool SharedFolder::claim_for_later(const std::string& key, bool again) const {
   std::error_code ignored;
   if (again) fs::remove(lock, ignored);
   // No process: only an answer, or the word of the user, takes it away.
-  return made_by_link(lock, json{{"host", "a later answer"}, {"process", 0}}.dump() + "\n");
+  return made_exclusively(lock, json{{"host", "a later answer"}, {"process", 0}}.dump() + "\n");
 }
 
 void SharedFolder::deliver(const std::string& full_key, const Answer& answer) const {

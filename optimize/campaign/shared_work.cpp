@@ -1,7 +1,6 @@
 // What is here: the loop of a process that evaluates for others. What is not: who asks (executor_shared.cpp).
 #include "optimize/campaign/shared_work.h"
 
-#include <new>
 #include <thread>
 
 #include "io/error.h"
@@ -17,8 +16,6 @@ constexpr auto look_for_requests = std::chrono::milliseconds(100);
 
 Answer answer_of(const SharedFolder& folder, const SharedRequest& shared, const EvaluateAndTell& evaluate,
                  const SharedWorkOptions& options) {
-  Answer answer;
-  answer.key = shared.key;
   const auto start = Clock::now();
   auto told = start;
   const auto tell = [&](const results::Progress& progress) {
@@ -28,19 +25,7 @@ Answer answer_of(const SharedFolder& folder, const SharedRequest& shared, const 
     folder.tell(shared.key, std::chrono::duration<double>(now - start).count(), progress);
     told = now;
   };
-  try {
-    answer.evaluation = evaluate(shared.request, tell);
-  } catch (const io::InputError& error) {
-    answer.evaluation = failed_evaluation(error.what(), shared.request.replicate);
-  } catch (const io::Cancelled&) {
-    answer.evaluation.status = results::RunStatus::stopped;
-  } catch (const std::bad_alloc&) {
-    answer.trouble = "out of memory";
-  } catch (const std::exception& error) {
-    answer.trouble = error.what();
-  }
-  answer.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return answer;
+  return answered(shared.key, shared.request.replicate, [&] { return evaluate(shared.request, tell); });
 }
 
 /// True: something was evaluated, or was to be.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "io/letters.h"
 #include "io/text.h"
 #include "optimize/campaign/case_choice.h"
 #include "optimize/campaign/evaluation_queue.h"
@@ -36,11 +37,6 @@ void describe(io::Schema& schema, SweepKeys& keys) {
                   "Keep the run file of every simulation in DIR/runs (runs.csv says which), with a few frames to draw");
   describe(section, keys.execution);
   section.text("measures", keys.measures, "Up to four results to draw, by their names in cases.csv");
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
 
 /// The values of one key.
@@ -136,7 +132,8 @@ struct Reader {
     const TableFile file(path, form(), schema, overrides);
     for (const TableEntry& entry : file.entries()) take(entry);
     auto start = file.start(sweep.keys.design);
-    for (const std::string& text : file.of_design()) refuse_varied(trimmed(text.substr(0, text.find('='))), "--set");
+    for (const std::string& text : file.of_design())
+      refuse_varied(std::string(io::trimmed(text.substr(0, text.find('=')))), "--set");
     for (const TableEntry& entry : file.fixed()) refuse_in(rows, grid, entry.key, "set." + entry.key, entry.value.line);
     if (sweep.keys.until > 0.0) refuse_varied("loading.until", "sweep.until");
     const Fidelity fidelity{"", changes_without_output(), sweep.keys.until};
@@ -349,11 +346,11 @@ const std::vector<std::string>& sweep_measures() {
 std::vector<std::string> measures_in(const std::string& list, const io::Origin& origin) {
   std::vector<std::string> names;
   const auto& known = sweep_measures();
-  std::string rest = trimmed(list);
+  std::string rest(io::trimmed(list));
   while (!rest.empty()) {
     const auto comma = rest.find_first_of(", ");
-    const std::string name = trimmed(rest.substr(0, comma));
-    rest = comma == std::string::npos ? "" : trimmed(rest.substr(comma + 1));
+    const std::string name(io::trimmed(rest.substr(0, comma)));
+    rest = comma == std::string::npos ? "" : io::trimmed(rest.substr(comma + 1));
     if (name.empty()) continue;
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       std::string nearest = io::nearest_name(name, known);

@@ -79,11 +79,7 @@ CaseResult case_result(const SweepRun& run, const SweepCase& one) {
     const std::vector<double> of_base = measures_of(*base);
     for (std::size_t k = 0; k < count; ++k) changes[k].push_back(reached[k] - of_base[k]);
   }
-  const results::Target& target = one.design->target;
-  if (!judged.empty() && !results::wishes(target).empty()) {
-    result.verdict = results::verdict_on(target, judged);
-    result.single_blocks = results::assurance_of(target, judged);
-  }
+  result.judgement = results::judgement_on(one.design->target, judged);
   for (std::size_t k = 0; k < count; ++k) {
     result.statistics.push_back(results::statistic_of(sweep_measures()[k], values[k]));
     if (compared) result.changes.push_back(results::statistic_of(sweep_measures()[k], changes[k]));
@@ -105,8 +101,7 @@ json to_json(const SweepRun& run) {
                    {"completed", result.completed},
                    {"failed", result.failed},
                    {"statistics", statistics_json(result.statistics)}};
-    if (result.verdict) record["verdict"] = results::to_json(*result.verdict);
-    if (result.single_blocks) record["single_blocks"] = results::to_json(*result.single_blocks);
+    if (result.judgement) record.update(results::to_json(*result.judgement));
     if (!result.changes.empty()) record["changes"] = statistics_json(result.changes);
     cases.push_back(std::move(record));
   }
@@ -142,7 +137,8 @@ std::string cases_csv(const SweepRun& run) {
     const CaseResult result = case_result(run, one);
     text += case_columns(run, one) + fmt::format(",{},{},{}", result.completed, result.failed,
                                                  one.problem.empty() ? "" : io::csv_quoted(one.problem));
-    if (wished) text += std::string(",") + (result.verdict ? results::outcome_name(result.verdict->outcome) : "");
+    if (wished)
+      text += std::string(",") + (result.judgement ? results::outcome_name(result.judgement->verdict.outcome) : "");
     for (std::size_t k = 0; k < result.statistics.size(); ++k) {
       const results::Statistic& s = result.statistics[k];
       text += field(s.mean) + field(s.standard_deviation) + field(s.confidence_95);

@@ -15,9 +15,8 @@ namespace perfora::optimize {
 /// What is known of one case.
 struct CaseResult {
   int completed = 0, failed = 0;
-  std::optional<results::Verdict> verdict;  ///< where the case's design wishes something and a replicate is known
-  std::optional<results::Assurance> single_blocks;  ///< as the verdict
-  std::vector<results::Statistic> statistics;  ///< of sweep_measures(), in their order, over the completed replicates
+  std::optional<results::Judgement> judgement;  ///< where the case's design wishes something and a replicate is known
+  std::vector<results::Statistic> statistics;   ///< of sweep_measures(), in their order, over the completed replicates
   /// Statistics of (this - case 0) over the replicates that both have: same seeds, so that the scatter of packings
   /// falls out where the packing is the same. Empty without a case 0.
   std::vector<results::Statistic> changes;

@@ -7,6 +7,7 @@
 
 #include "io/text.h"
 #include "optimize/campaign/sweep_result.h"
+#include "results/formats.h"
 
 namespace perfora::optimize {
 
@@ -20,17 +21,18 @@ SweepRun::SweepRun(Sweep sweep, WorkOptions options) : sweep_(std::move(sweep)) 
       runs.push_back({{request.key(), request, one.label}, simulation_key(request)});
     }
   }
+  simulations_ = sweep_.runs();
   options.execution = sweep_.keys.execution;
   open(std::move(options));
 }
 
 std::vector<std::string> SweepRun::own_files() const {
-  return {"journal.jsonl", "result.json", "cases.csv", "runs.csv",       "curves.csv",    "sweep.png", "collapse.png",
-          "report.html",   "runs",        "histories", "tolerance.json", "tolerance.csv", "shared"};
+  return {"result.json",  "cases.csv",   "runs.csv",       "curves.csv",   "sweep.png",
+          "collapse.png", "report.html", "tolerance.json", "tolerance.csv"};
 }
 
 json SweepRun::identity() const {
-  return {{"schema", "perfora.sweep/1"},
+  return {{"schema", results::sweep_schema},
           {"file", sweep_.file.filename().string()},
           {"grid_key", sweep_.grid_key},
           {"each", sweep_.each}};
@@ -72,7 +74,7 @@ std::string SweepRun::on_answer(const Asked& asked, const Evaluation& evaluation
                                              io::quantity(summary.first_peak_stress, io::Dimension::stress, "none"),
                                              io::quantity(summary.plateau_stress, io::Dimension::stress, "none"))
                                : "failed: " + evaluation.reason;
-  return fmt::format("run {} of {}: {}, replicate {}: {}", sweep_.runs() - remaining_, sweep_.runs(), asked.label,
+  return fmt::format("run {} of {}: {}, replicate {}: {}", simulations_ - remaining_, simulations_, asked.label,
                      asked.request.replicate, what);
 }
 
@@ -82,7 +84,7 @@ CampaignEnd SweepRun::finished() {
     for (int replicate = 0; replicate < sweep_.keys.replicates; ++replicate)
       if (completed(one, replicate)) reached.insert(run_of(one, replicate).simulation);
   return {reached.empty() ? results::RunStatus::failed : results::RunStatus::completed,
-          fmt::format("{} of {} runs completed", reached.size(), sweep_.runs())};
+          fmt::format("{} of {} runs completed", reached.size(), simulations_)};
 }
 
 void SweepRun::write_results() {

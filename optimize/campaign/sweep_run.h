@@ -45,6 +45,7 @@ class SweepRun final : public Campaign {
 
   Sweep sweep_;
   std::vector<std::vector<Run>> runs_;  ///< by case and replicate; empty where a case cannot be run
+  std::int64_t simulations_ = 0;        ///< Sweep::runs()
   std::int64_t remaining_ = 0;          ///< runs that are not known yet
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "io/error.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "io/toml.h"
 #include "results/describe.h"
@@ -88,6 +89,7 @@ std::shared_ptr<DesignFile> TableFile::start(const std::filesystem::path& design
   if (design.empty())
     throw io::InputError({path_.string(), 0, section + ".design"}, "no design is named to start from",
                          "the path of a design file", fmt::format("add design = \"quick.toml\" under [{}]", section));
+  io::require_existing(design, origin(section + ".design"));
   auto start = std::make_shared<DesignFile>(design, of_design_);
   for (const TableEntry& entry : fixed_) io::apply_entries(start->schema(), {{entry.key, entry.value}}, path_.string());
   for (const io::Origin& origin : old_names_) start->schema().note_old_name(origin);

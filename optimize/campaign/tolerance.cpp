@@ -143,7 +143,7 @@ struct ToleranceReader {
       DesignFile::of(changed, "tolerance").require_valid();
     } catch (const io::InputError& error) {
       if (!made.problem.empty()) return;
-      made.problem = fmt::format("block {}: {}", replicate + 1, error.problem());
+      made.problem = fmt::format("replicate {}: {}", replicate, error.problem());
       all.sweep.warnings.push_back(fmt::format("{} cannot be run: {}", made.label, made.problem));
     }
   }

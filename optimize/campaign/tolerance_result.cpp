@@ -9,6 +9,7 @@
 #include "io/files.h"
 #include "optimize/campaign/sweep_result.h"
 #include "results/assurance.h"
+#include "results/formats.h"
 #include "results/verdict.h"
 #include "results/wish_record.h"
 
@@ -104,7 +105,7 @@ json to_json(const Tolerance& tolerance, const SweepRun& run) {
     deviations.push_back(std::move(record));
   }
   json record = {
-      {"schema", "perfora.tolerance/1"},
+      {"schema", results::tolerance_schema},
       {"status", results::status_name(run.status())},
       {"reason", run.reason()},
       {"seeds", to_json(sweep.start->design().seeds.effective(0))},

@@ -39,6 +39,12 @@ std::vector<fs::path> own_paths(const fs::path& folder, const std::vector<std::s
   return found;
 }
 
+void remove_whole(const fs::path& path) {
+  std::error_code failed;
+  fs::remove_all(path, failed);
+  if (failed) io::fail_writing(path, failed.value());
+}
+
 }  // namespace
 
 io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::string>& own_files,
@@ -70,12 +76,15 @@ io::OutputLock claim_work_folder(const fs::path& folder, const std::vector<std::
            "continue it with --resume, start over with --force, or name another folder with -o");
   if (force && !resume)
     for (const fs::path& path : own_paths(folder, own_files))
-      if (path != journal && (begun || !fs::is_directory(path, ignored))) fs::remove_all(path);
-  if (force && !resume) fs::remove(journal);  // Last: a kill before leaves a folder that --force still knows.
+      if (path != journal && (begun || !fs::is_directory(path, ignored))) remove_whole(path);
+  if (force && !resume) remove_whole(journal);  // Last: a kill before leaves a folder that --force still knows.
   if (!fs::exists(journal))
-    for (const fs::path& path : own_paths(folder, own_files))
-      refuse(path, fmt::format("{} would overwrite this file", with_article(what)),
-             "start over with --force, or name another folder with -o");
+    for (const fs::path& path : own_paths(folder, own_files)) {
+      const bool is_folder = fs::is_directory(path, ignored);
+      refuse(path, fmt::format("{} would overwrite this {}", with_article(what), is_folder ? "folder" : "file"),
+             is_folder ? "name another folder with -o, or move this one"
+                       : "start over with --force, or name another folder with -o");
+    }
   io::remove_dead_temporaries(folder);
   for (const char* sub : {"runs", "histories"}) io::remove_dead_temporaries(folder / sub);
   return lock;

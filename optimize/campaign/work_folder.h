@@ -14,7 +14,7 @@ namespace perfora::optimize {
 /// `force`, keeps them with `resume`, otherwise refuses a folder that holds such work or a file of such a name. `what`
 /// names the work as its journal's first event does ("study"). A folder that another process uses or with the journal
 /// of other work is refused in any case, and folders among `own_files` are removed only beside a journal. Temporaries
-/// of processes that were killed go. Throws io::InputError.
+/// of processes that were killed go. Throws io::InputError, and io::SurroundingsError where the disk fails.
 [[nodiscard]] io::OutputLock claim_work_folder(const std::filesystem::path& folder,
                                                const std::vector<std::string>& own_files, const std::string& what,
                                                bool force, bool resume);

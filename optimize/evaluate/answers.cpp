@@ -1,10 +1,12 @@
 // What is here: which evaluation answers which request. What is not: the key of a request (request.cpp).
 #include "optimize/evaluate/answers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "results/grade.h"
+#include "results/history.h"
 #include "results/measured_anew.h"
 
 namespace perfora::optimize {
@@ -35,9 +37,8 @@ void Answers::add(const std::string& key, Evaluation evaluation) {
 bool is_answer(const Evaluation& evaluation, const Request& request) {
   if (!request.material_test.empty()) return true;  // Its key says all of it.
   const results::Summary& summary = evaluation.summary;
-  constexpr double rounding = 1e-9;  // strains of a path are good to rounding
-  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > request.strain() + rounding);
-  return std::abs(summary.final_strain - request.strain()) < rounding &&
+  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > request.strain() + results::strain_rounding);
+  return std::abs(summary.final_strain - request.strain()) < results::strain_rounding &&
          summary.measured == request.design->measuring_frame().text();
 }
 
@@ -54,7 +55,10 @@ std::optional<Evaluation> Answers::at_grade_of(const Request& request, const std
 std::optional<Evaluation> Answers::measured_anew(const Request& request, const std::string& key) const {
   if (!histories_) return std::nullopt;
   const auto [first, last] = of(key);
-  if (first == last) return std::nullopt;
+  const double least = request.strain() - results::strain_rounding;
+  const bool far_enough =
+      std::any_of(first, last, [&](const auto& one) { return one.second.summary.final_strain >= least; });
+  if (!far_enough) return std::nullopt;  // a file less to read, for each request that is open
   std::optional<results::StoredHistory> kept = histories_(key);
   if (!kept || kept->history.rows() == 0) return std::nullopt;
   results::GradeChange(grade_of(request) / kept->grade).apply(kept->history);

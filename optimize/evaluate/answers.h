@@ -43,7 +43,7 @@ class Answers {
 
   Stored stored_;
   Histories histories_;
-  mutable Stored derived_;  ///< from a stored one: what was asked before costs nothing
+  mutable Stored derived_;  ///< from a stored one: what was found once costs nothing
 };
 
 /// Whether an evaluation of the request's key is what the request asks for, but for its grade: its run ended with the

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/files.h"
 #include "io/toml.h"
 #include "optimize/evaluate/calibrated_material.h"
 #include "results/curve_file.h"
@@ -14,11 +15,8 @@ namespace perfora::optimize {
 
 namespace {
 
-/// Largest seed: 2^53 - 1, exact in JSON.
-constexpr double largest_seed = 9007199254740991.0;
-
 void describe_seeds(io::Schema& schema, Seeds& seeds) {
-  const io::Range range = io::Range::between(0.0, largest_seed);
+  const io::Range range = io::Range::between(0.0, static_cast<double>(Seeds::largest));
   schema.section("seeds", "Random streams: all four follow from `seed` unless set apart. Never the clock.")
       .integer("seed", seeds.seed, range, "the number all streams are derived from")
       .integer("packing", seeds.packing, range, "seed of the disc packing; 0: from `seed`")
@@ -82,6 +80,9 @@ DesignFile::DesignFile(const std::filesystem::path& path, const std::vector<std:
   title_ = io::title_in(entries);
   if (title_.empty()) title_ = path.stem().string();
   for (const std::string& text : overrides) schema_->set_override(text);
+  for (const io::Key& key : schema_->keys())
+    if (key.type == io::KeyType::path)
+      io::require_existing(std::get<std::string>(key.get().data), schema_->origin(key.full_name()));
   // What is wrong with a measured curve is said before a run, not when its picture is drawn.
   if (const std::filesystem::path& curve = design_->solver.output.curve; !curve.empty())
     static_cast<void>(results::read_curve(curve));
@@ -101,16 +102,25 @@ DesignFile DesignFile::from_toml(const std::string& text, const std::string& nam
   return result;
 }
 
-std::string configuration_today(const std::string& stored) {
+Design without_places(Design design) {
+  geometry::LayoutOptions& layout = design.layout;
+  if (!layout.outline_checksum.empty()) layout.outline.clear();
+  if (!layout.file_checksum.empty()) layout.file.clear();
+  if (!design.packing.file_checksum.empty()) design.packing.file.clear();
+  return design;
+}
+
+std::string comparable_configuration(const std::string& stored) {
   try {
-    return DesignFile::from_toml(stored, "stored configuration").schema().to_toml();
+    const DesignFile file = DesignFile::from_toml(stored, "stored configuration");
+    return DesignFile(without_places(file.design())).schema().to_toml();
   } catch (const io::InputError&) {
     return stored;
   }
 }
 
 bool same_configuration(const std::string& stored, const DesignFile& design) {
-  return configuration_today(stored) == design.schema().to_toml();
+  return comparable_configuration(stored) == DesignFile(without_places(design.design())).schema().to_toml();
 }
 
 DesignFile DesignFile::clone() const {

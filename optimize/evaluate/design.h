@@ -24,6 +24,7 @@ namespace perfora::optimize {
 /// replicate 0 uses it as it is (so the seeds a result names can be given back as --packing-seed and so on), replicate
 /// r > 0 uses splitmix64(splitmix64(it) + r), cut alike.
 struct Seeds {
+  static constexpr std::int64_t largest = (std::int64_t{1} << 53) - 1;  ///< exact in JSON and whatever reads it
   std::int64_t seed = 1;
   std::int64_t packing = 0, noise = 0, layout = 0, search = 0;  ///< 0: derived from `seed`
 
@@ -44,7 +45,8 @@ struct Design {
   results::MeasuringFrame measuring_frame() const;
 };
 
-/// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [output] [measures] [target] [seeds].
+/// Binds all sections: [cell] [layout] [packing] [material] [noise] [loading] [dynamics] [output] [measures] [target]
+/// [seeds].
 void describe(io::Schema& schema, Design& design);
 
 /// What a design is checked for: a compression, or its packing and elastic response alone.
@@ -88,10 +90,14 @@ class DesignFile {
   std::string title_;
 };
 
-/// `stored`, the resolved configuration in a file or journal, with old names of keys resolved and keys that it lacks at
-/// their defaults; as it is where it holds keys that this program does not know.
-std::string configuration_today(const std::string& stored);
-/// Whether `stored`, the resolved configuration in a file or journal, is that of `design` (configuration_today).
+/// The design without the places of its files whose content it knows: what tells designs apart.
+Design without_places(Design design);
+
+/// `stored`, the resolved configuration in a file or journal, as it tells designs apart: old names of keys resolved,
+/// keys that it lacks at their defaults, without_places(); as it is where it holds keys that this program does not
+/// know.
+std::string comparable_configuration(const std::string& stored);
+/// Whether `stored`, the resolved configuration in a file or journal, is that of `design`, its files wherever they lie.
 bool same_configuration(const std::string& stored, const DesignFile& design);
 
 using results::results_version;

@@ -9,8 +9,10 @@
 
 #include "geometry/jam.h"
 #include "geometry/make_packing.h"
+#include "geometry/plane.h"
 #include "geometry/size_law.h"
 #include "geometry/wall.h"
+#include "io/files.h"
 #include "io/text.h"
 #include "optimize/evaluate/design.h"
 
@@ -161,8 +163,7 @@ void check_crushed_ends(const Design& design, const io::Schema& schema) {
 /// The two holes and where the middle of their wall is.
 std::string pair_text(const geometry::ThinnestWall& wall, const geometry::PerforationLayout& layout) {
   const auto middle = [](double from, double to, double period) {
-    const double at = 0.5 * (from + to);
-    const double inside = at - period * std::floor(at / period);
+    const double inside = geometry::wrapped(0.5 * (from + to), period);
     return warned_length(inside < wall_rounding * period ? 0.0 : inside);
   };
   const std::string at = fmt::format("at ({}, {})", middle(wall.from.x, wall.to.x, layout.width),
@@ -304,10 +305,29 @@ void warn_about_window(const Design& design, std::vector<std::string>& warnings)
       io::quantity(until, io::Dimension::ratio), io::quantity(measures.plateau_end, io::Dimension::ratio)));
 }
 
+/// A design from a record or another host says what its files hold; results go by that.
+void check_file_contents(const Design& design, const io::Schema& schema) {
+  const auto check = [&](const char* key, const std::filesystem::path& file, const std::string& then) {
+    if (file.empty() || then.empty()) return;
+    const std::string now = io::content_checksum(file);
+    if (now == then) return;
+    const std::string name = std::string(key) + io::checksum_suffix;
+    throw io::InputError(
+        schema.origin(name),
+        fmt::format("{} holds something else ({}) than when this design was written ({})", file.string(), now, then),
+        "results belong to what the file held then",
+        fmt::format("put the earlier file back, or remove {} and begin anew", name));
+  };
+  check("layout.outline", design.layout.outline, design.layout.outline_checksum);
+  check("layout.file", design.layout.file, design.layout.file_checksum);
+  check("packing.file", design.packing.file, design.packing.file_checksum);
+}
+
 enum class Warnings { all, cheap };
 
 std::vector<std::string> checked(const Design& design, const io::Schema& schema, Purpose purpose, Warnings warn) {
   std::vector<std::string> warnings;
+  check_file_contents(design, schema);
   check_size_law(design, schema);
   check_disc_count(design, schema);
   const DiscSizes sizes = disc_sizes(design, warnings);

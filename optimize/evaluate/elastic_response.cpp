@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plane.h"
 #include "io/error.h"
 #include "results/elastic_file.h"
 #include "results/formats.h"
@@ -94,9 +95,8 @@ std::pair<double, double> place_of(const ElasticResponse& answer, std::int32_t b
   const geometry::Packing& clipped = answer.packed.clipped;
   const auto i = static_cast<std::size_t>(answer.network.i[id]);
   const double half = 0.5 * answer.network.reference_length[id];
-  const auto wrapped = [](double x, double period) { return x - period * std::floor(x / period); };
-  return {wrapped(clipped.x[i] + half * answer.network.direction_x[id], clipped.width),
-          wrapped(clipped.y[i] + half * answer.network.direction_y[id], clipped.height)};
+  return {geometry::wrapped(clipped.x[i] + half * answer.network.direction_x[id], clipped.width),
+          geometry::wrapped(clipped.y[i] + half * answer.network.direction_y[id], clipped.height)};
 }
 
 const char* mode_name(results::BreakMode mode) {

@@ -96,8 +96,8 @@ void estimate_steps(const Design& design, const geometry::PerforationLayout& lay
 double frame_count(const solver::SolverOptions& options) {
   const double until = options.loading.until;
   if (!options.output.frame_strains.empty()) return static_cast<double>(options.output.frame_strains.size());
-  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until / 0.05;
-  if (options.output.frames == solver::FrameChoice::all) return 2.0 + until / 0.01;
+  if (options.output.frames == solver::FrameChoice::few) return 2.0 + until * solver::few_frames_a_strain;
+  if (options.output.frames == solver::FrameChoice::all) return 2.0 + until * solver::all_frames_a_strain;
   return 0.0;
 }
 

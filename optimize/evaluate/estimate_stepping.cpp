@@ -7,6 +7,7 @@
 #include <random>
 
 #include "geometry/packing.h"
+#include "geometry/plane.h"
 #include "solver/mass.h"
 #include "solver/noise.h"
 #include "solver/run.h"
@@ -35,8 +36,8 @@ geometry::Packing make_patch(const PatchDiscs& discs, double horizon_radius) {
     for (int column = 0; column < columns; ++column) {
       const double x = (column + (row % 2 == 0 ? 0.25 : 0.75)) * spacing + shake(),
                    y = (row + 0.5) * row_height + shake();
-      patch.x.push_back(x - patch.width * std::floor(x / patch.width));
-      patch.y.push_back(y - patch.height * std::floor(y / patch.height));
+      patch.x.push_back(geometry::wrapped(x, patch.width));
+      patch.y.push_back(geometry::wrapped(y, patch.height));
       patch.radius.push_back(0.5 * discs.diameters[generator() % discs.diameters.size()]);
     }
   }

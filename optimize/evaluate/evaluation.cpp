@@ -126,7 +126,7 @@ solver::RunRequest run_request(const DesignFile& file, const PackedDesign& packe
   request.cancellation = options.cancellation;
   request.progress = options.progress;
   request.provenance = provenance_of(file, seeds, options.command_line);
-  request.in_names_of_today = configuration_today;
+  request.comparable = comparable_configuration;
   return request;
 }
 
@@ -163,20 +163,21 @@ Evaluation failed_evaluation(const std::string& reason, int replicate, const See
 }
 
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading) {
-  constexpr double small_overlap = 0.05, small_kinetic_fraction = 0.05, small_residual = 0.01;
   const results::Summary& s = evaluation.summary;
   std::vector<std::string> warnings;
-  if (s.max_overlap_in_run > small_overlap)
+  if (s.max_overlap_in_run > results::small_overlap)
     warnings.push_back(
-        fmt::format("the largest overlap reached {} of <d>, beyond 5 %: the rubble is pressed together more than "
+        fmt::format("the largest overlap reached {} of <d>, beyond {}: the rubble is pressed together more than "
                     "discs can bear; take the stress of the last strains as a lower bound",
-                    io::quantity(s.max_overlap_in_run, io::Dimension::ratio)));
-  if (s.energy_residual > small_residual)
+                    io::quantity(s.max_overlap_in_run, io::Dimension::ratio),
+                    io::quantity(results::small_overlap, io::Dimension::ratio)));
+  if (s.energy_residual > results::small_energy_residual)
     warnings.push_back(fmt::format(
         "the energies do not add up to the work by {} of it, beyond {}: the step is too long or the block is loaded "
         "too fast; lower dynamics.step_factor, or loading.rate where it is set",
-        io::quantity(s.energy_residual, io::Dimension::ratio), io::quantity(small_residual, io::Dimension::ratio)));
-  if (s.kinetic_ratio_at_peak > small_kinetic_fraction)
+        io::quantity(s.energy_residual, io::Dimension::ratio),
+        io::quantity(results::small_energy_residual, io::Dimension::ratio)));
+  if (s.kinetic_ratio_at_peak > results::small_kinetic_ratio)
     warnings.push_back(fmt::format(
         "kinetic energy was {} of the elastic one at the first peak: not quasi-static; raise loading.transits",
         io::quantity(s.kinetic_ratio_at_peak, io::Dimension::ratio)));
@@ -213,6 +214,10 @@ nlohmann::json evaluation_record(const DesignFile& design, const Evaluation& eva
   const results::Target& target = design.design().target;
   const Evaluation* const one = &evaluation;
   if (!results::wishes(target).empty()) record["verdict"] = results::to_json(results::verdict_on(target, {&one, 1}));
+  std::vector<std::string> warnings = design.validate();
+  for (std::string& told : validity_warnings(evaluation, design.design().solver.loading))
+    warnings.push_back(std::move(told));
+  record["warnings"] = warnings;
   return record;
 }
 

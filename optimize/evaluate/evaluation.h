@@ -69,8 +69,9 @@ results::Provenance provenance_of(const DesignFile& design, const Seeds::Effecti
 /// design's.
 std::vector<std::string> validity_warnings(const Evaluation& evaluation, const solver::LoadingOptions& loading);
 
-/// The record of one evaluation of `design`, without its curve, with the verdict where the design wishes something
-/// (one block shows little: results/verdict.h). schema "perfora.evaluate/1".
+/// The record of one evaluation of `design`, without its curve, with what is said against the design and the run
+/// (`warnings`), and with the verdict where the design wishes something (one block shows little: results/verdict.h).
+/// schema "perfora.evaluate/1".
 nlohmann::json evaluation_record(const DesignFile& design, const Evaluation& evaluation);
 
 /// Throws io::InputError unless `packing_file` holds the periodic packing that `design` and `replicate` ask for; what

@@ -52,7 +52,7 @@ bool changes_path(const std::string& key) {
 
 std::string Request::key() const {
   if (!material_test.empty()) return full_key();
-  Design similar = *design;
+  Design similar = without_places(*design);
   similar.solver = solver::at_grade_one(similar.solver);  // it goes through the same states
   const DesignFile file(similar);
   json path = json::object();
@@ -63,7 +63,7 @@ std::string Request::key() const {
 }
 
 std::string Request::full_key() const {
-  json all = {{"design", DesignFile(*design).schema().changed_toml(io::Names::first)},
+  json all = {{"design", DesignFile(without_places(*design)).schema().changed_toml(io::Names::first)},
               {"replicate", replicate},
               {"until", until}};
   if (!material_test.empty()) all["material_test"] = material_test;

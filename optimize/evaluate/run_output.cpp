@@ -12,9 +12,28 @@ namespace perfora::optimize {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void require_h5(const fs::path& file, const char* what) {
+  if (file.extension() != ".h5")
+    throw io::InputError({"-o", 0, file.string()}, std::string(what) + " does not end in .h5",
+                         "a name such as result.h5");
+}
+
+}  // namespace
+
+io::OutputLock claim_pack_output(const fs::path& file, bool force) {
+  require_h5(file, "the packing file");
+  io::check_output(file, true, false);  // that there is a folder for the lock, and what is there may be replaced
+  io::OutputLock lock(file);
+  if (!force && fs::exists(file))
+    throw io::InputError({file.string(), 0, ""}, "already exists", "",
+                         "--force replaces it, or name another output with -o");
+  return lock;
+}
+
 io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resume) {
-  if (run_file.extension() != ".h5")
-    throw io::InputError({"-o", 0, run_file.string()}, "the run file does not end in .h5", "a name such as result.h5");
+  require_h5(run_file, "the run file");
   io::check_output(run_file, true, false);  // that there is a folder for the lock
   io::OutputLock lock(run_file);
   io::check_output(run_file, force, resume);

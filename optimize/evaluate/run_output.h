@@ -16,6 +16,10 @@ namespace perfora::optimize {
 /// are left. Throws io::InputError, also where another process uses the output.
 [[nodiscard]] io::OutputLock claim_run_output(const std::filesystem::path& run_file, bool force, bool resume);
 
+/// Takes the output of a packing: its lock first, then refuses a name that does not end in .h5 and, without `force`, a
+/// file that exists. Throws io::InputError, also where another process uses the output.
+[[nodiscard]] io::OutputLock claim_pack_output(const std::filesystem::path& file, bool force);
+
 /// What stands before an evaluation.
 struct PreparedEvaluation {
   std::vector<std::string> warnings;  ///< of the design and of what it costs

@@ -20,11 +20,9 @@ constexpr std::uint64_t noise_stream = 0x6E6F697365000000ULL;    // "noise"
 constexpr std::uint64_t layout_stream = 0x6C61796F75740000ULL;   // "layout"
 constexpr std::uint64_t search_stream = 0x7365617263680000ULL;   // "search"
 
-/// Seeds are whole numbers in [1, 2^53): exact in JSON and in every language that reads it, and valid as --packing-seed
-/// and the like.
+/// Seeds are whole numbers in [1, Seeds::largest], so that they are valid as --packing-seed and the like.
 std::uint64_t to_seed(std::uint64_t value) {
-  constexpr std::uint64_t mask = (std::uint64_t{1} << 53) - 1;
-  value &= mask;
+  value &= std::uint64_t{Seeds::largest};  // 53 bits, all set
   return value == 0 ? 1 : value;
 }
 

@@ -11,6 +11,7 @@
 #include "io/text.h"
 #include "optimize/campaign/table_file.h"
 #include "optimize/evaluate/evaluation.h"
+#include "results/formats.h"
 
 namespace perfora::optimize {
 namespace {
@@ -81,6 +82,14 @@ Calibration read_calibration(const std::filesystem::path& path, const std::vecto
       calibration.warnings.push_back(fmt::format(
           "calibrate.{} is {} (plain numbers are in Pa); did you mean \"{:g} {}Pa\"?", name,
           io::quantity(stress, io::Dimension::stress), stress, std::string_view(name) == "young_modulus" ? "G" : "M"));
+  // What was found to be in reach of these bonds (docs/user/tutorial-mortar.md).
+  constexpr double least_ratio = 5.0, largest_ratio = 40.0;
+  const double ratio = keys.compressive_strength / keys.tensile_strength;
+  if (keys.compressive_strength > 0.0 && (ratio < least_ratio || ratio > largest_ratio))
+    calibration.warnings.push_back(
+        fmt::format("the compressive strength is {} times the tensile one: these bonds reach {:g} to {:g} times; check "
+                    "both, or expect \"not met\"",
+                    io::number(ratio), least_ratio, largest_ratio));
   solver::MaterialOptions& material = start->design().solver.material;
   if (material.grade != 1.0 || material.strength != 1.0)
     calibration.warnings.push_back(
@@ -112,7 +121,7 @@ json to_json(const CalibrationResult& result) {
                       {"strength_ratio", number(p.ratio())},
                       {"of_chart", p.of_chart}});
   json record = {
-      {"schema", "perfora.calibrate/1"},
+      {"schema", results::calibration_schema},
       {"status", results::status_name(result.status)},
       {"reason", result.reason},
       {"results_version", results_version},

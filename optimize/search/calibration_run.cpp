@@ -83,8 +83,8 @@ class CalibrationRun final : public Campaign {
 
   std::string kind() const override { return "calibration"; }
   std::vector<std::string> own_files() const override {
-    return {"journal.jsonl", "material.toml",   material_name,      "result.json", "reachable.csv",
-            "reachable.png", "confirmation.h5", "confirmation.png", "report.html", "shared"};
+    return {"material.toml", material_name,     "result.json",      "reachable.csv",
+            "reachable.png", "confirmation.h5", "confirmation.png", "report.html"};
   }
   json identity() const override {
     return {{"design", calibration_.start->schema().to_toml()}, {"replicates", keys_.replicates}};

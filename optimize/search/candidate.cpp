@@ -19,8 +19,7 @@ std::string label_of(const Study& study, int arm, std::span<const double> values
   std::string label = arm < 0 ? "start" : study.arms[static_cast<std::size_t>(arm)].name;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Variable& variable = study.variables[k];
-    label += fmt::format(", {} {}", variable.key.substr(variable.key.find('.') + 1),
-                         io::quantity(values[k], variable.dimension));
+    label += fmt::format(", {} {}", io::after_section(variable.key), io::quantity(values[k], variable.dimension));
   }
   return label;
 }

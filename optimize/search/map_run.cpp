@@ -11,6 +11,7 @@
 #include "optimize/search/map_result.h"
 #include "optimize/search/study_space.h"
 #include "results/campaign_folder.h"
+#include "results/formats.h"
 
 namespace perfora::optimize {
 
@@ -23,12 +24,12 @@ MapRun::MapRun(Study study, WorkOptions options) : study_(std::move(study)), dri
 }
 
 std::vector<std::string> MapRun::own_files() const {
-  return {"journal.jsonl", "map.json", "map.csv", "map.png", "report.html", "runs", "histories", "shared"};
+  return {"map.json", "map.csv", "map.png", "report.html"};
 }
 
 json MapRun::identity() const {
   json head = study_identity(study_);
-  head["schema"] = "perfora.map/1";
+  head["schema"] = results::map_schema;
   return head;
 }
 
@@ -63,7 +64,7 @@ std::string MapRun::on_answer(const Asked& asked, const Evaluation& evaluation) 
   const bool completed = evaluation.status == results::RunStatus::completed;
   const std::int64_t all = static_cast<std::int64_t>(plan_.map.size()) * study_.keys.map.replicates;
   return fmt::format(
-      "evaluation {} of {}: {}, replicate {}: {}", all - remaining_, all, asked.label, asked.request.replicate + 1,
+      "evaluation {} of {}: {}, replicate {}: {}", all - remaining_, all, asked.label, asked.request.replicate,
       completed ? "plateau " + io::quantity(evaluation.summary.plateau_stress, io::Dimension::stress, "none")
                 : "failed: " + evaluation.reason);
 }

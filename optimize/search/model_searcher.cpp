@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "io/letters.h"
 #include "optimize/search/nlopt_search.h"
 #include "optimize/search/sampling_searcher.h"
 #include "optimize/search/study_model.h"
@@ -343,9 +343,7 @@ class ModelSearcher final : public Searcher {
   }
   std::vector<std::string> algorithms() const override { return {"model"}; }
   std::string canonical_name(const std::string& name, std::string& problem) const override {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string lower = io::lower(name);
     if (lower == "model") return lower;
     problem = "no search that learns is called so";
     return {};

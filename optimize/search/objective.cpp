@@ -88,7 +88,13 @@ void add_wishes(const Target& target, const std::vector<const Evaluation*>& runs
   for (const results::Wish& wish : results::wishes(target)) {
     std::vector<double> values;
     for (const Evaluation* run : runs) values.push_back(results::wished_value(*wish.measure, *run));
-    const double cost = cost_of(wish, mean_of(values), target);
+    // Blocks without the measure count as the verdict counts them: they do not keep the wish.
+    const auto without = static_cast<double>(
+        std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
+    const double share = without / static_cast<double>(values.size());
+    const double mean = mean_of(values);
+    double cost = share * cost_of(wish, std::nan(""), target);
+    if (share < 1.0) cost += (1.0 - share) * cost_of(wish, mean, target);
     ++score.wishes;
     if (cost > 0.0) ++score.not_kept;
     score.of_wishes += target.weight_limits * cost;

@@ -2,10 +2,10 @@
 #include "optimize/search/sampling_searcher.h"
 
 #include <algorithm>
-#include <cctype>
 #include <random>
 #include <set>
 
+#include "io/letters.h"
 #include "optimize/evaluate/design.h"
 #include "optimize/model/quasi_random.h"
 
@@ -39,9 +39,7 @@ class SamplingSearcher final : public Searcher {
   Library library() const override { return {"perfora", "1"}; }
   std::vector<std::string> algorithms() const override { return {"random", "sobol"}; }
   std::string canonical_name(const std::string& name, std::string& problem) const override {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string lower = io::lower(name);
     if (lower == "random" || lower == "sobol") return lower;
     problem = "no sampling is called so";
     return {};

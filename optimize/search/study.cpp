@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -83,6 +84,13 @@ struct Reader {
     set_target(start);
     set_window(start);
     check_algorithms();
+    const double wall = study.constraints.thinnest_wall;
+    const geometry::LayoutOptions& layout = start.design().layout;
+    if (wall >= std::min(layout.cell_width(), layout.cell_height()))
+      throw io::InputError(origin("constraints.thinnest_wall"),
+                           fmt::format("{} is more than the cell has", io::quantity(wall, io::Dimension::length)),
+                           "walls are thinner than the cell; plain numbers are in m",
+                           fmt::format("did you mean \"{:g} mm\"?", wall));
     const auto& porosity = study.constraints.porosity;
     if (!porosity.empty() && (porosity.size() != 2 || !(porosity[0] <= porosity[1]) || !(porosity[1] > 0.0)))
       throw io::InputError(origin("constraints.porosity"), "this is not a range",
@@ -210,12 +218,14 @@ struct Reader {
   }
 };
 
-/// Keys of the design that change what is written but no result.
-bool only_output(const std::string& key) {
-  return key == "output.frames" || key == "output.frame_strains" || key == "output.checkpoint_interval";
-}
-
 }  // namespace
+
+bool changes_search(const std::string& key) {
+  constexpr std::array<std::string_view, 5> beside_the_path = {"measures.", "target.", "material_test.",
+                                                               "loading.until", "seeds.search"};
+  return changes_path(key) || std::any_of(beside_the_path.begin(), beside_the_path.end(),
+                                          [&](std::string_view one) { return key.starts_with(one); });
+}
 
 std::vector<double> Study::values_at(std::span<const double> x) const {
   std::vector<double> values(variables.size());
@@ -263,8 +273,9 @@ std::map<std::string, std::string> Study::resolved() const {
   std::string names;
   for (const Arm& arm : arms) names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", arm.name, arm.maxeval);
   all["arms"] = names;
-  for (const io::Key& key : start->schema().keys())
-    if (!only_output(key.full_name())) all["design." + key.full_name()] = io::value_text(key.get());
+  const DesignFile design(without_places(start->design()));
+  for (const io::Key& key : design.schema().keys())
+    if (changes_search(key.full_name())) all["design." + key.full_name()] = io::value_text(key.get());
   return all;
 }
 

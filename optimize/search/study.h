@@ -132,6 +132,10 @@ struct Study {
   double until() const { return start->design().solver.loading.until; }
 };
 
+/// Whether a key of the design says what is searched, or by what: those that only what is written or drawn goes by do
+/// not.
+bool changes_search(const std::string& key);
+
 /// What a study file is read for. A map needs neither a wish nor a number of candidates.
 enum class StudyUse { search, map };
 

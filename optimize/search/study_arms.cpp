@@ -63,9 +63,11 @@ Axis list_axis(const Study& study, const NamedKey& named, const io::Entry& entry
       throw io::InputError(origin_in(study, "arms", entry), "arms are whole numbers or names", "",
                            fmt::format("move {} to [variables] with bounds", named.name));
     scratch.schema().set(key.full_name(), value, origin_in(study, "arms", entry));
+    io::Value taken = scratch.schema().at(key.full_name()).get();  // 2.0 is 2 where the key holds whole numbers
+    taken.line = value.line;
     const bool known = std::any_of(axis.values.begin(), axis.values.end(),
-                                   [&](const io::Value& other) { return value_name(other) == value_name(value); });
-    if (!known) axis.values.push_back(value);
+                                   [&](const io::Value& other) { return value_name(other) == value_name(taken); });
+    if (!known) axis.values.push_back(std::move(taken));
   }
   return axis;
 }
@@ -93,8 +95,7 @@ std::vector<Axis> collect_axes(const Study& study, const ArmEntries& entries) {
 std::string arm_name(const Arm& arm, int start, int starts) {
   std::string name;
   for (const DesignChange& choice : arm.choices)
-    name += fmt::format("{}{}={}", name.empty() ? "" : " ", choice.key.substr(choice.key.find('.') + 1),
-                        value_name(choice.value));
+    name += fmt::format("{}{}={}", name.empty() ? "" : " ", io::after_section(choice.key), value_name(choice.value));
   if (starts > 1) name += fmt::format("{}start={}", name.empty() ? "" : " ", start + 1);
   return name.empty() ? "all" : name;
 }
@@ -235,7 +236,9 @@ void drop_impossible(Study& study) {
     }
     if (fraction == 0.0)
       study.warnings.push_back(
-          fmt::format("arm {}: none of {} points spread over its bounds keeps the constraints", arm.name, samples));
+          fmt::format("arm {}: none of {} points spread over its bounds keeps [constraints] (thinnest_wall, porosity): "
+                      "widen [variables], or ask for less",
+                      arm.name, samples));
     possible.push_back(arm);
     possible.back().fraction = fraction;
   }

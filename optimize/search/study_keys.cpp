@@ -114,7 +114,7 @@ void refuse_metres(const Study& study, const io::Key& key, const io::Entry& entr
 
 [[noreturn]] void refuse_empty_bounds(const Study& study, const io::Entry& entry, double low, double high) {
   throw io::InputError(origin_in(study, "variables", entry),
-                       fmt::format("nothing lies between the bounds {:g} and {:g}", low, high), "lowest < highest",
+                       fmt::format("nothing lies between the bounds {:g} and {:g} (SI)", low, high), "lowest < highest",
                        "write the smaller one first, or set the key in the design instead");
 }
 

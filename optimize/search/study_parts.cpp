@@ -14,6 +14,7 @@
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_result.h"
 #include "results/json.h"
+#include "results/judgement.h"
 #include "results/statistic.h"
 
 namespace perfora::optimize {
@@ -31,9 +32,15 @@ double half_width(const results::Target& target, int blocks) {
   return boost::math::quantile(law, 0.5 * (1.0 + results::confidence)) / std::sqrt(static_cast<double>(blocks));
 }
 
-/// Blocks that would show a wish to be kept with this mean and scatter; 0: none up to most_blocks.
-int blocks_needed(const results::Target& target, const results::Wish& wish, const results::Statistic& of) {
-  const double room = std::min(of.mean - wish.low, wish.high - of.mean);
+/// Blocks that would show a wish to be kept with the mean and the scatter of `values`; 0: none up to most_blocks. On
+/// logarithms where results::block_interval() is.
+int blocks_needed(const results::Target& target, const results::Wish& wish, std::vector<double> values) {
+  const bool logarithms = target.statement == results::Statement::block &&
+                          std::all_of(values.begin(), values.end(), [](double value) { return value > 0.0; });
+  const auto on_scale = [&](double value) { return logarithms ? std::log(std::max(0.0, value)) : value; };
+  for (double& value : values) value = on_scale(value);
+  const results::Statistic of = results::statistic_of({}, values);
+  const double room = std::min(of.mean - on_scale(wish.low), on_scale(wish.high) - of.mean);
   if (!(room > 0.0)) return 0;
   for (int blocks = results::fewest_replicates; blocks <= most_blocks; ++blocks)
     if (half_width(target, blocks) * of.standard_deviation <= room) return blocks;
@@ -82,10 +89,7 @@ json verified_json(StudyRun& run) {
                   {"recommended", one.candidate == run.plan().best},
                   {"fidelity", study.fidelities[study.verify_fidelity].name},
                   {"score", score_json(one.score)}};
-    if (!results::wishes(study.target).empty() && !blocks.empty()) {
-      entry["verdict"] = to_json(results::verdict_on(study.target, blocks));
-      entry["single_blocks"] = to_json(results::assurance_of(study.target, blocks));
-    }
+    if (const auto judgement = results::judgement_on(study.target, blocks)) entry.update(to_json(*judgement));
     designs.push_back(std::move(entry));
   }
   return designs;
@@ -265,7 +269,7 @@ std::vector<std::string> what_more_would_buy(StudyRun& run) {
     const results::Statistic of = results::statistic_of({}, values);
     if (of.count < 2) continue;
     const std::string name = results::name_of(*one.wish.measure);
-    const int needed = blocks_needed(study.target, one.wish, of);
+    const int needed = blocks_needed(study.target, one.wish, values);
     const int further = needed - static_cast<int>(blocks.size());
     if (!(of.mean > one.wish.low && of.mean < one.wish.high))
       sentences.push_back(fmt::format("{}: its mean does not keep the wish; {} needed, not more blocks", name,

@@ -63,12 +63,11 @@ void add_facts(results::StudyRecord& record, const StudyRun& run, const Score& b
   const Candidate& start = *run.plan().start.candidate;
   const auto& schema = study.start->schema();
   for (const DesignChange& choice : study.arms[static_cast<std::size_t>(best.arm)].choices)
-    record.facts.push_back({choice.key.substr(choice.key.find('.') + 1), io::readable(choice.value),
-                            io::readable(schema.find(choice.key)->get())});
+    record.facts.push_back(
+        {io::after_section(choice.key), io::readable(choice.value), io::readable(schema.find(choice.key)->get())});
   for (std::size_t k = 0; k < study.variables.size(); ++k) {
     const auto& variable = study.variables[k];
-    record.facts.push_back({variable.key.substr(variable.key.find('.') + 1),
-                            io::quantity(best.values[k], variable.dimension),
+    record.facts.push_back({io::after_section(variable.key), io::quantity(best.values[k], variable.dimension),
                             io::quantity(start.values[k], variable.dimension)});
   }
   record.facts.push_back({"thinnest wall", io::quantity(best.layout.thinnest_wall, io::Dimension::length),

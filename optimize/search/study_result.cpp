@@ -18,6 +18,7 @@
 #include "optimize/search/study_parts.h"
 #include "optimize/search/study_plan.h"
 #include "optimize/search/study_record.h"
+#include "results/formats.h"
 
 namespace perfora::optimize {
 namespace {
@@ -159,7 +160,7 @@ std::string csv_line(const Study& study, const char* stage, const std::string& a
   add(visit.score, visit.answered);
   add(visit.detail.not_kept, visit.detail.valid);
   add(visit.detail.plateau_mean, any);
-  add(visit.detail.plateau_std, any);
+  add(visit.detail.plateau_std, visit.detail.replicates - visit.detail.failed > 1);
   add(visit.detail.undulation_mean, any);
   add(visit.detail.first_peak_mean, any);
   const auto columns = further_columns(study);
@@ -196,7 +197,7 @@ json to_json(StudyRun& run) {
   const Plan& plan = run.plan();
   const Study& study = run.study();
   const Searcher::Library library = study.searcher->library();
-  json record = {{"schema", "perfora.optimize/1"},
+  json record = {{"schema", results::study_schema},
                  {"status", results::status_name(run.status())},
                  {"reason", run.reason()},
                  {"seeds", to_json(study.start->design().seeds.effective(0))},
@@ -234,9 +235,10 @@ std::string best_toml(StudyRun& run) {
   std::string text = fmt::format("# Best design of {} ({}, {} evaluations): {}\n", study.file.filename().string(),
                                  study.keys.algorithm, run.answers().size(), plan.best->label);
   text += fmt::format(
-      "# score {:.6g}; plateau {} {} (mean of {} runs)\n", plan.best_score.value,
+      "# search score {:.6g}; plateau {} {} (mean of {} runs{})\n", plan.best_score.value,
       io::quantity(plateau.at("mean").is_null() ? NAN : plateau.at("mean").get<double>(), io::Dimension::stress),
-      window_text(study.start->design().measures), plateau.at("count").get<int>());
+      window_text(study.start->design().measures), plateau.at("count").get<int>(),
+      plateau.at("seeds") == "fresh" ? ", on fresh seeds" : "");
   if (const auto verdict = verdict_of(run)) text += "# " + verdict->text + "\n";
   const Finals& finals = plan.finals;
   if (finals.pairs > 1)
@@ -283,8 +285,9 @@ Evaluation evaluate_best(const StudyRun& run, EvaluateOptions options) {
   const bool there = std::filesystem::exists(options.run_file);
   // An earlier best, before maxeval was raised.
   if (there && !same_configuration(io::Hdf5Reader(options.run_file).text("/config"), design)) {
-    std::filesystem::remove(options.run_file);
-    std::filesystem::remove_all(run.options().folder / "best.part");
+    for (const char* name : {"best.part", "best.csv", "best.xdmf", "best.xdmf.h5", "best.png"})
+      std::filesystem::remove_all(run.options().folder / name);
+    std::filesystem::remove(options.run_file);  // last: a kill before leaves what tells that they are to go
   }
   return evaluate_design(design, options, 0);
 }

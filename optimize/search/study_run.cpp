@@ -75,10 +75,9 @@ StudyRun::StudyRun(Study study, WorkOptions options, double wall_time)
 }
 
 std::vector<std::string> StudyRun::own_files() const {
-  return {"journal.jsonl",  "result.json",  "best.toml",   "best.h5",   "best.csv",
-          "best.xdmf",      "best.xdmf.h5", "best.part",   "best.png",  "evaluations.csv",
-          "study.json",     "study.png",    "report.html", "map.json",  "map.csv",
-          "candidates.csv", "map.png",      "runs",        "histories", "shared"};
+  return {"result.json", "best.toml", "best.h5",         "best.csv",   "best.xdmf", "best.xdmf.h5",
+          "best.part",   "best.png",  "evaluations.csv", "study.json", "study.png", "report.html",
+          "map.json",    "map.csv",   "candidates.csv",  "map.png"};
 }
 
 json StudyRun::identity() const {

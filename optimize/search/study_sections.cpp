@@ -50,8 +50,9 @@ void describe(io::Schema& schema, StudyKeys& keys) {
                "constraints) or a list of numbers");
   section.integer("replicates", keys.replicates, Range::at_least(1),
                   "Simulations a candidate, each with seeds of its own");
-  section.integer("final_replicates", keys.final_replicates, Range::non_negative(),
-                  "Fresh seeds on which the best design is run again at the end; the start design on the first five of them");
+  section.integer(
+      "final_replicates", keys.final_replicates, Range::non_negative(),
+      "Fresh seeds on which the best design is run again at the end; the start design on the first five of them");
   section.real("until", keys.until, Dimension::ratio, Range{0.0, 1.0, false, true},
                "Strain to run to; 0: as the design says");
   section.integer("starts", keys.starts, Range::at_least(1), "Arms that differ only in where a local algorithm begins");

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
+#include <optional>
 #include <set>
 #include <sstream>
 
+#include "io/numbers.h"
+#include "io/text.h"
 #include "optimize/evaluate/request.h"
+#include "results/history.h"
 
 namespace perfora::optimize {
 namespace {
@@ -80,14 +83,10 @@ std::string shown(const std::string& value) {
     const bool begins =
         std::isdigit(static_cast<unsigned char>(value[at])) != 0 &&
         (at == 0 || (std::isalnum(static_cast<unsigned char>(value[at - 1])) == 0 && value[at - 1] != '_'));
-    char* end = nullptr;
-    const double number = begins ? std::strtod(value.c_str() + at, &end) : 0.0;
-    if (begins && end != value.c_str() + at) {
-      text += fmt::format("{:g}", number);
-      at = static_cast<std::size_t>(end - value.c_str());
-    } else {
-      text += value[at++];
-    }
+    std::string_view rest = std::string_view(value).substr(at);
+    const std::optional<double> number = begins ? io::take_number(rest) : std::nullopt;
+    text += number ? fmt::format("{:g}", *number) : std::string(1, value[at]);
+    at = number ? value.size() - rest.size() : at + 1;
   }
   return text;
 }
@@ -98,6 +97,17 @@ json study_identity(const Study& study) {
   json fidelities = json::array();
   for (const Fidelity& one : study.fidelities) fidelities.push_back(changes_text(study, one));
   return {{"resolved", resolved}, {"fidelities", fidelities}, {"file", study.file.filename().string()}};
+}
+
+/// Keys of the design that heads of earlier programs have and that no search goes by; places of files whose content is
+/// known, and that content where an earlier program did not note it.
+bool counts_for_nothing(const std::string& key, const json& there, const json& here) {
+  constexpr std::string_view design = "design.";
+  if (!key.starts_with(design)) return false;
+  if (!changes_search(key.substr(design.size()))) return true;
+  const std::string content = key + io::checksum_suffix;
+  return (here.contains(content) && here.at(content) != "") ||
+         (key.ends_with(io::checksum_suffix) && !there.contains(key));
 }
 
 std::string name_today(const Study& study, const std::string& key) {
@@ -123,6 +133,7 @@ std::vector<Difference> differences(const Study& study, const json& head) {
   std::vector<Difference> found;
   for (const std::string& key : keys) {
     if (!there.contains(key) && at_default.contains(key)) continue;
+    if (counts_for_nothing(key, there, here)) continue;
     Difference one{key, text(there, key), text(here, key)};
     if (one.there != one.here) found.push_back(std::move(one));
   }
@@ -134,10 +145,9 @@ Difference difference_in_space(const Study& study, const json& head) {
   for (Difference& one : differences(study, head))
     if (of_space(one.key, keys) && !(one.key == "arms" && among_arms(one))) return std::move(one);
   const json& resolved = head.at("resolved");
-  const double until = std::strtod(resolved.value("design.loading.until", "0").c_str(), nullptr);
-  constexpr double rounding = 1e-9;
-  if (until < study.until() - rounding)
-    return {"loading.until", resolved.value("design.loading.until", "nothing"), std::to_string(study.until())};
+  const double until = io::number_from(resolved.value("design.loading.until", "")).value_or(0.0);
+  if (until < study.until() - results::strain_rounding)
+    return {"loading.until", resolved.value("design.loading.until", "nothing"), io::shortest(study.until())};
   const std::string own = changes_text(study, study.fidelities[study.map_fidelity]);
   const json known = head.value("fidelities", json::array({""}));
   if (std::find(known.begin(), known.end(), json(own)) == known.end())

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
+#include "io/numbers.h"
 #include "io/text.h"
 #include "io/toml.h"
 #include "results/json.h"
@@ -27,7 +27,7 @@ json text_or_empty(const json& object, const char* key) {
 
 /// Six significant digits: more than a screen shows.
 double short_number(double value) {
-  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+  return io::number_from(fmt::format("{:.6g}", value)).value_or(NAN);
 }
 
 json table_of(const json& summary, results::MeasureGroup group, const char* title) {

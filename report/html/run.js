@@ -103,7 +103,8 @@ Report.runSections = async (run, name) => {
     series: [{label: "tension", y: run.cracks.tension, colour: Report.series(0)}, {label: "shear", y: run.cracks.shear, colour: Report.series(1)}]}), {note: "all breaks of the run, in the intact block"}) : null;
 
   const validity = run.validity.length ? section("Can the numbers be relied on?",
-    Report.table(["what", "value", "guide", ""], run.validity.map((row) => [row.name, row.value, row.guide, el("span", {class: "mark " + (row.good ? "met" : "missed")}, row.good ? "in order" : "look here")]))) : null;
+    Report.table(["what", "value", "guide", ""], run.validity.map((row) => [row.name, row.value, row.guide, el("span", {class: "mark " + (row.good ? "met" : "missed")}, row.good ? "in order" : "look here")])),
+    run.warnings.length ? el("ul", {class: "soft"}, ...run.warnings.map((one) => el("li", {}, one))) : null) : null;
   const csv = () => {
     const names = history.columns.map((column) => column.name);
     const lines = [names.join(",")];

@@ -10,6 +10,7 @@
 #include "io/text.h"
 #include "report/html/packed.h"
 #include "results/json.h"
+#include "results/summary.h"
 #include "results/summary_numbers.h"
 
 namespace perfora::report {
@@ -95,25 +96,26 @@ json validity_facts(const json& summary, double mean_diameter, const Configured&
   };
   const double wanted_transits = keys.number("loading.transits").value_or(15.0);
   const double horizon = keys.number("material.horizon").value_or(3.0);
-  // The limits are those of the warnings at the end of a run (docs/user/theory.md, "Measures").
-  row("energy_residual", "work that the energies do not account for", io::Dimension::ratio, "at most 1 %",
-      [](double x) { return x <= 0.01; });
-  row("kinetic_ratio_at_peak", "kinetic over elastic energy at the first peak", io::Dimension::ratio, "at most 5 %",
-      [](double x) { return x <= 0.05; });
+  // The limits are those of the warnings at the end of a run.
+  const auto at_most = [&](const char* key, const char* name, double limit, const char* what = "") {
+    row(key, name, io::Dimension::ratio, "at most " + io::quantity(limit, io::Dimension::ratio) + what,
+        [limit](double x) { return x <= limit; });
+  };
+  at_most("energy_residual", "work that the energies do not account for", results::small_energy_residual);
+  at_most("kinetic_ratio_at_peak", "kinetic over elastic energy at the first peak", results::small_kinetic_ratio);
   row("transits_before_peak", "wave transits before the first peak", io::Dimension::none,
       fmt::format("at least {}", io::number(wanted_transits)), [&](double x) { return x >= wanted_transits; });
   row("step_margin", "critical time step over the step taken", io::Dimension::none, "above 1",
       [](double x) { return x > 1.0; });
-  row("impact_ratio", "impact stress over plateau stress", io::Dimension::ratio, "at most 10 % for claims",
-      [](double x) { return x <= 0.1; });
-  row("max_overlap_in_run", "largest overlap over mean diameter", io::Dimension::ratio, "at most 5 %",
-      [](double x) { return x <= 0.05; });
+  at_most("impact_ratio", "impact stress over plateau stress", results::honest_impact_ratio, " for claims");
+  at_most("max_overlap_in_run", "largest overlap over mean diameter", results::small_overlap);
   const auto wall = results::summary_number(summary, "thinnest_wall");
   if (wall && mean_diameter > 0.0)
     rows.push_back({{"name", "discs across the thinnest wall"},
                     {"value", io::number(*wall / mean_diameter)},
-                    {"guide", fmt::format("above {}, the horizon", io::number(horizon))},
-                    {"good", *wall / mean_diameter > horizon}});
+                    {"guide", fmt::format("above {}, two horizons (above {}, the rule)", io::number(2.0 * horizon),
+                                          io::number(horizon))},
+                    {"good", *wall / mean_diameter > 2.0 * horizon}});
   return rows;
 }
 
@@ -129,6 +131,7 @@ Part run_part(const RunResult& run, const RunPartOptions& options) {
                 {"measured", curve_facts(options.measured)},
                 {"cracks", crack_facts(run)},
                 {"validity", validity_facts(run.summary, run.mean_diameter, Configured(run.provenance.config))},
+                {"warnings", run.summary.value("warnings", json::array())},
                 {"command", run.provenance.command_line},
                 {"config", run.provenance.config},
                 {"program", fmt::format("perfora {} ({}), results_version {}", run.provenance.program_version,

@@ -3,8 +3,6 @@
 #include "solver/index.h"
 
 namespace perfora::solver {
-namespace {}  // namespace
-
 void ContactRows::build(const NeighbourList& pairs, const DiscState& discs, const ContactLaw& law) {
   const std::int32_t n = discs.size();
   std::vector<std::int32_t> length(at(n));

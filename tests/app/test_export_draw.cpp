@@ -15,7 +15,7 @@ class ExportAndDraw : public CommandLine {};
 TEST_F(ExportAndDraw, KeysOfADesignAreRefusedBesideResults) {
   ASSERT_EQ(run("pack d.toml -o p.h5").exit_code, 0);
   for (const char* command : {"show p.h5 --set layout.diameter=5mm", "report p.h5 --seed 2", "plot p.h5 --set a.b=1",
-                              "export p.h5 --csv --packing-seed 3"}) {
+                              "export p.h5 --csv --packing-seed 3", "draw p.h5 --set layout.diameter=5mm"}) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.exit_code, 1) << command;
     EXPECT_THAT(outcome.error, HasSubstr("changes a design, and results are taken as they are")) << command;
@@ -24,6 +24,14 @@ TEST_F(ExportAndDraw, KeysOfADesignAreRefusedBesideResults) {
   EXPECT_EQ(run("plot d.toml -o b.svg").exit_code, 0);
   EXPECT_NE(read_text(folder_ / "a.svg"), read_text(folder_ / "b.svg"));
   EXPECT_THAT(run("plot d.toml --set layout.diametre=5mm -o c.svg").error, HasSubstr("did you mean layout.diameter"));
+}
+
+TEST_F(ExportAndDraw, APackingNeverReplacesItsDesign) {
+  const std::string before = read_text(folder_ / "d.toml");
+  const Outcome outcome = run("pack d.toml -o d.toml --force");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("the packing file does not end in .h5"));
+  EXPECT_EQ(read_text(folder_ / "d.toml"), before);
 }
 
 TEST_F(ExportAndDraw, SeveralFormatsAtOnce) {

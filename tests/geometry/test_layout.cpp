@@ -137,6 +137,46 @@ TEST(Layout, ListInlineAndFromCsv) {
   }
 }
 
+// One and the same two holes: in metres, with units in the header, with units in the fields, in file_unit with and
+// without a header.
+TEST(Layout, ListsFromCsvTakeUnits) {
+  const auto read = [](const std::string& text, const std::string& unit) {
+    const TemporaryCsv csv(text);
+    LayoutOptions options;
+    options.family = LayoutFamily::list;
+    options.file = csv.path();
+    options.file_unit = unit;
+    return make_layout(options, 1).perforations;
+  };
+  const auto metres = read("x,y,diameter\n0.03,0.04,0.02\n0.1,0.11,0.03\n", "");
+  ASSERT_EQ(metres.size(), 2u);
+  for (const auto& [text, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"X [mm],y (mm),diameter [cm]\n30,40,2\n100,110,3\n", ""},
+                                                        {"x,y,diameter\n30 mm,4 cm,0.02\n0.1,110 mm,30 mm\n", ""},
+                                                        {"x,y,diameter\n30,40,20\n100,110,30\n", "mm"},
+                                                        {"30,40,20\n100,110,30\n", "mm"}}) {
+    const auto holes = read(text, unit);
+    ASSERT_EQ(holes.size(), 2u) << text;
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(holes[k].x, metres[k].x, 1e-15) << text;
+      EXPECT_NEAR(holes[k].y, metres[k].y, 1e-15) << text;
+      EXPECT_NEAR(holes[k].largest_extent(), metres[k].largest_extent(), 1e-15) << text;
+    }
+  }
+  LayoutOptions options;
+  options.family = LayoutFamily::list;
+  const auto refused = [&](const std::string& text, const std::string& unit) {
+    const TemporaryCsv csv(text);
+    options.file = csv.path();
+    options.file_unit = unit;
+    return refusal(options);
+  };
+  EXPECT_THAT(refused("x [mm],y [mm],diameter [mm]\n30,40,20\n", "mm"),
+              HasSubstr("layout.file_unit: the header names units already"));
+  EXPECT_THAT(refused("x,z,diameter\n0.03,0.04,0.02\n", ""),
+              HasSubstr("has no column y; its columns are x, z, diameter"));
+}
+
 TEST(Layout, ListErrorsNameFileAndLine) {
   const TemporaryCsv csv("x,y,diameter\n0.03,0.04,0.02\n30,40,20\n");
   LayoutOptions options;

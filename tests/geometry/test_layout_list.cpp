@@ -104,7 +104,7 @@ TEST_F(ListOfShapes, ErrorsNameFileLineAndColumn) {
               HasSubstr("column x means nothing"));
   EXPECT_THAT(complaint(head + ",,,,,,,\"POLYGON ((0 0, 0.01 0.01, 0.01 0, 0 0.01))\"\n"), HasSubstr("cross or touch"));
   EXPECT_THAT(complaint(head + ",,,,,,,POLYGON ((0 0, 0.01 0.01, 0.01 0))\n"), HasSubstr("stands in quotes"));
-  EXPECT_THAT(complaint("x,y,shape\n0.01,0.01,slot\n"), HasSubstr("column diameter is missing or empty"));
+  EXPECT_THAT(complaint("x,y,shape\n0.01,0.01,slot\n"), HasSubstr("has no column diameter"));
   EXPECT_THAT(complaint("x,y,diameter,shape\n"), HasSubstr("holds no holes"));
 }
 

@@ -175,6 +175,15 @@ TEST(Schema, AListMayTakeOneNumberWithoutBrackets) {
   schema.set_override("rows.size=[\"9 mm\", 0.01]");
   EXPECT_THAT(sizes, ElementsAre(0.009, 0.01));
   EXPECT_THAT(input_error([&] { schema.set_override("rows.size=-1 mm"); }), HasSubstr("out of range"));
+  // A key that holds a word, or one number that is read as such, has no elements.
+  std::string word;
+  std::vector<double> window;
+  schema.section("target", "").numbers("window", window, {{Dimension::ratio}, &word, {"found"}}, "");
+  for (const char* whole : {"found", "0.3"}) {
+    schema.set_override(std::string("target.window=") + whole);
+    EXPECT_THAT(input_error([&] { schema.set_override("target.window[0]=0.2"); }),
+                HasSubstr("the key holds one value here; write target.window"));
+  }
   EXPECT_THAT(input_error([&] { schema.set_override("rows.size=true"); }),
               HasSubstr("a number or a list of numbers in square brackets is wanted"));
 }

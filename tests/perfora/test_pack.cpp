@@ -60,7 +60,8 @@ TEST(PublicPacking, FileHoldsThePackingThatWasGiven) {
   EXPECT_EQ(read.openings.front().x, made.openings.front().x);
   ASSERT_EQ(read.measures.size(), made.measures.size());
   for (const Measure& measure : made.measures) EXPECT_EQ(read.measure(measure.key), measure.value) << measure.key;
-  EXPECT_THAT(error_of([&] { static_cast<void>(pack(small_block(), options)); }), ::testing::HasSubstr("exists"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(pack(small_block(), options)); }),
+              ::testing::HasSubstr("already exists; `force` replaces it"));
   options.force = true;
   EXPECT_EQ(error_of([&] { static_cast<void>(pack(small_block(), options)); }), "");
 }

@@ -51,6 +51,23 @@ class PublicStudy : public testing::Test {
   std::filesystem::path file;
 };
 
+// Opened again and closed without a question a finished study stays finished; one that is not says who left it.
+TEST_F(PublicStudy, ClosingSaysHowItStands) {
+  static_cast<void>(by_itself());
+  for (const bool looks : {false, true}) {
+    Study study(file, options("by-itself", true));
+    if (looks) {
+      EXPECT_TRUE(study.finished());
+    }
+    EXPECT_EQ(study.close().status, Status::completed);
+  }
+  Study open(file, options("open"));
+  static_cast<void>(open.ask(1));
+  const Campaign left = open.close();
+  EXPECT_EQ(left.status, Status::stopped);
+  EXPECT_THAT(left.reason, HasSubstr("left open by the program that asks"));
+}
+
 TEST_F(PublicStudy, AskedAndToldIsTheStudyThatEvaluatesByItself) {
   Study study(file, options("told"));
   while (!study.finished()) {

@@ -33,6 +33,17 @@ class DesignTest(FolderTest):
             self.assertIn(key.name, design)
         self.assertEqual(len(design), len(list(design)))
 
+    def test_lists_rows_and_words_read_back(self):
+        design = perfora.Design(small)
+        design["layout.family"] = "list"
+        design["layout.holes"] = [[0.003, 0.003, 0.002], [0.009, 0.009, 0.002]]
+        self.assertEqual(design["layout.holes"], [[0.003, 0.003, 0.002], [0.009, 0.009, 0.002]])
+        design["target.window"] = "found"
+        self.assertEqual(design["target.window"], "found")
+        design["target.window"] = [0.1, 0.2]
+        self.assertEqual(design["target.window"], [0.1, 0.2])
+        self.assertEqual(dict(design)["layout.holes"][1][0], 0.009)
+
     def test_every_way_to_write_a_number_is_that_number(self):
         design = perfora.Design(small)
         for value in ("7 mm", 0.007, np.float64(0.007), "0.7cm"):

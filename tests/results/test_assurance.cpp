@@ -44,6 +44,8 @@ TEST(Assurance, CountsBlocksThatKeepEveryWish) {
   EXPECT_EQ(found.keeping, 2);
   ASSERT_EQ(found.next.size(), 1U);
   EXPECT_NE(in_words(found).find("2 of 4 single blocks"), std::string::npos);
+  EXPECT_EQ(found.next[0].count, 3);
+  EXPECT_NE(in_words(found).find("(where it has one, as 3 of these)"), std::string::npos) << in_words(found);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "results/found_plateau.h"
 #include "results/measures.h"
 
 namespace perfora::results {
@@ -354,6 +355,22 @@ TEST(Measures, ARampHasNoFoundPlateau) {
   EXPECT_EQ(s.found_plateau_length, 0.0);
   EXPECT_TRUE(std::isnan(s.plateau_stress));
   EXPECT_TRUE(std::isnan(s.cap_ratio));
+}
+
+// sigma = 1 + e from 0 to 0.4: the slope may be 1.25 at most, so the longest plateau goes from 1.4/1.25 = 1.12 to 1.4.
+// The band alone would take all of it: the mean of 1.2 is less than 25 % from 1 and from 1.4.
+TEST(Measures, TheSlopeEndsAFoundPlateauWithinItsBand) {
+  std::vector<double> strain, stress;
+  for (int k = 0; k <= 4000; ++k) {
+    strain.push_back(1e-4 * k);
+    stress.push_back(1.0 + strain.back());
+  }
+  MeasureOptions options;
+  const auto found = found_plateau(strain, stress, 0.0, 0.4, options);
+  ASSERT_TRUE(found);
+  const double sample = options.smoothing / 40.0;  // samples that lie closer are left out
+  EXPECT_NEAR(found->start, 0.12, 2.0 * sample);
+  EXPECT_NEAR(found->end, 0.4, 2.0 * sample);
 }
 
 // The curve of a lattice: peak 1 MPa, 0.1 MPa to 40 % strain, then a dense branch that is flat enough from 44 to 55 %

@@ -172,7 +172,11 @@ TEST(Verdict, SingleBlocksAskForMore) {
   target.tolerance = 0.6;
   const Verdict wide = verdict(target, blocks);
   EXPECT_EQ(wide.outcome, Outcome::met);
-  EXPECT_NE(wide.text.find("90 % of single blocks"), std::string::npos) << wide.text;
+  EXPECT_NE(wide.text.find("the wish, for 90 % of single blocks"), std::string::npos) << wide.text;
+  limit(target, "undulation") = {0.5};  // shown wish by wish: of blocks that keep both nothing is said
+  for (Evaluation& one : blocks) one.summary.undulation = 0.1;
+  const Verdict both = verdict(target, blocks);
+  EXPECT_NE(both.text.find("all 2 wishes, each for 90 % of single blocks"), std::string::npos) << both.text;
 }
 
 TEST(Verdict, ABlockThatFailedOrSeedsOfTheSearchLeaveNothingMet) {

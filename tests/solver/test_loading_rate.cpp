@@ -111,6 +111,8 @@ TEST(LoadingPlan, TransitsBeforeTheFirstPeak) {
   const double rate = allowed_rate(adaptive(), {});
   EXPECT_GE(0.7 * e.peak_strain / rate * e.wave_speed / 50e-3, 25.0 * (1.0 - 1e-12));
   EXPECT_GE(e.peak_strain / rate * e.wave_speed / 20e-3, 100.0 * (1.0 - 1e-12));
+  // rho c h of a block of 50 mm, 1000 kg/m3 and 316 m/s: the impact stress of all verdicts is this times the rate.
+  EXPECT_NEAR(adaptive().stress_per_rate, 1000.0 * std::sqrt(1e8 / 1000.0) * 50e-3, 1e-9 * 1e4);
   EXPECT_NEAR(allowed_rate(adaptive(50.0), {}), 0.5 * rate, 1e-12 * rate);  // twice the transits, half of every rate
   const SegmentMeasures rubble{0.0, 5e4, true};  // what rubble bears does not hang on the peak
   EXPECT_NEAR(allowed_rate(adaptive(50.0), rubble), allowed_rate(adaptive(), rubble), 1e-12 * rate);

@@ -97,6 +97,11 @@ std::vector<std::string> violations(const std::string& path, std::string_view te
   if (lines > maximum_lines)
     out.push_back(path + ": " + std::to_string(lines) + " lines; at most " + std::to_string(maximum_lines) +
                   " are read in one go; split it");
+  // They go by the locale of the process, which a program around the library may set: 0.5 would be read as 0.
+  for (const char* by_locale : {"strtod(", "strtof(", "std::stod(", "std::stof(", "atof(", "sscanf(", "snprintf("})
+    if (!path.starts_with("tests/") && text.find(by_locale) != std::string_view::npos)
+      out.push_back(path + ": " + by_locale +
+                    ") goes by the locale; read with io/numbers.h, print with io/text.h or fmt");
   if (room_of(path))
     for (const auto& include : includes_of(text)) check_include(path, include, out);
   return out;

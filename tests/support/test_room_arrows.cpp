@@ -118,6 +118,11 @@ TEST(RoomArrows, OpeningCommentIsWanted) {
   EXPECT_THAT(violations("tests/io/x.cpp", "\n// late\n"), ElementsAre(HasSubstr("no comment")));
 }
 
+TEST(RoomArrows, NumbersDoNotGoByTheLocale) {
+  EXPECT_THAT(violations("io/x.cpp", "//\nconst double x = std::stod(text);\n"), ElementsAre(HasSubstr("locale")));
+  EXPECT_THAT(violations("tests/io/x.cpp", "//\nconst double x = std::stod(text);\n"), IsEmpty());
+}
+
 TEST(RoomArrows, LongFilesAreRefused) {
   std::string text = "// What is here.\n";
   for (int line = 1; line < maximum_lines; ++line) text += "\n";

@@ -287,5 +287,50 @@ TEST_F(CampaignTest, ForceRemovesItsOwnFilesAlone) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "work/parting words"));
 }
 
+// Folders that the end of any work cleans are its own from the start, or it does not begin there.
+TEST_F(CampaignTest, FoldersOfSomebodysOwnStay) {
+  for (const std::string name : {"runs", "histories", "shared"}) {
+    std::filesystem::create_directories(folder_ / ("work/" + name));
+    folder_.file("work/" + name + "/mine.txt", "mine");
+    for (const bool force : {false, true}) {
+      WorkOptions wanted = options();
+      wanted.force = force;
+      EXPECT_THAT(complaint([&] { Counting("a", 1, wanted); }),
+                  HasSubstr("a count would overwrite this folder; name another folder with -o, or move this one"));
+    }
+    EXPECT_EQ(io::read_file(folder_ / ("work/" + name + "/mine.txt")), "mine");
+    std::filesystem::remove_all(folder_ / "work");
+  }
+}
+
+// The key that an earlier program filed a history under is another than today's: the history goes with the evaluation.
+TEST_F(CampaignTest, AHistoryUnderAnEarlierKeyIsKept) {
+  {
+    Counting run("a", 2, options(false, 1));
+    run.run();
+  }
+  const auto journal = folder_ / "work/journal.jsonl";
+  const std::vector<std::string> events = io::Journal(journal).events();
+  std::filesystem::remove(journal);
+  std::string key;
+  {
+    io::Journal older(journal);
+    for (const std::string& text : events) {
+      json event = json::parse(text);
+      if (event.at("event") == "evaluation") {
+        key = event.at("key");
+        event["key"] = "earlier";
+      }
+      older.append(event.dump());
+    }
+  }
+  ASSERT_FALSE(key.empty());
+  std::filesystem::create_directories(folder_ / "work/histories");
+  folder_.file("work/histories/earlier.h5", "a history");
+  const Counting again("a", 2, options(true));
+  EXPECT_EQ(io::read_file(folder_ / ("work/histories/" + key + ".h5")), "a history");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "work/histories/earlier.h5"));
+}
+
 }  // namespace
 }  // namespace perfora::optimize

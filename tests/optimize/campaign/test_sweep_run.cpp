@@ -81,7 +81,7 @@ TEST_F(SweepTest, EveryCaseHasAVerdictWhereSomethingIsWished) {
   EXPECT_NE(table.find(",problem,outcome,"), std::string::npos);
   EXPECT_NE(table.find(",not shown,"), std::string::npos);
   const SweepRun begun(sweep(sweep_text("[each]\nmaterial.horizon = [2]\n")), options("other"));
-  EXPECT_FALSE(case_result(begun, begun.sweep().cases[0]).verdict) << "nothing is known there";
+  EXPECT_FALSE(case_result(begun, begun.sweep().cases[0]).judgement) << "nothing is known there";
 }
 
 // Stresses are those of grade 1 times the grade (theory.md): one simulation a replicate answers all of them.

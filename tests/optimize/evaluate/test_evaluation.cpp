@@ -125,7 +125,7 @@ TEST_F(Evaluating, TheRunFileHoldsItsSummaryAndAFinishedRunIsNotRunAgain) {
   options.run_file = folder_ / "r.h5";
   const Evaluation made = evaluate_design(file, options, 0);
   const auto written = std::filesystem::last_write_time(options.run_file);
-  EXPECT_EQ(nlohmann::json::parse(io::Hdf5Reader(options.run_file).text("/summary")), to_json(made, false));
+  EXPECT_EQ(nlohmann::json::parse(io::Hdf5Reader(options.run_file).text("/summary")), evaluation_record(file, made));
   options.resume = true;
   EXPECT_EQ(to_json(evaluate_design(file, options, 0), true), to_json(made, true));
   EXPECT_EQ(std::filesystem::last_write_time(options.run_file), written);

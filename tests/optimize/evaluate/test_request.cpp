@@ -105,6 +105,33 @@ TEST(Request, KeyStaysWhenTheProgramLearnsAKey) {
   EXPECT_NE(request_from_json(record).key(), request.key());
 }
 
+// Holes from a file: the key changes with what the file holds, and not with where it lies; a request that was written
+// down before the file changed keeps its key, and is not answered with other holes.
+TEST(Request, FilesCountByWhatTheyHold) {
+  const DesignFolder here, there;
+  std::string text = small_design;
+  text.replace(text.find("family = \"square\""), std::string("family = \"square\"").size(),
+               "family = \"list\"\nfile = \"holes.csv\"");
+  const auto written = [&](const DesignFolder& folder, const char* diameter) {
+    folder.file("holes.csv", std::string("x,y,diameter\n0.006,0.006,") + diameter + "\n");
+    return DesignFile(folder.file("design.toml", text));
+  };
+  const Request six = make_request(written(here, "0.006"), 0), moved = make_request(written(there, "0.006"), 0);
+  EXPECT_EQ(moved.key(), six.key());
+  EXPECT_EQ(moved.full_key(), six.full_key());
+  EXPECT_TRUE(same_configuration(to_json(six).at("design"), DesignFile(*moved.design)));
+  const nlohmann::json record = to_json(six);
+  const Request five = make_request(written(here, "0.005"), 0);
+  EXPECT_NE(five.key(), six.key());
+  EXPECT_NE(five.full_key(), six.full_key());
+  EXPECT_FALSE(same_configuration(record.at("design"), DesignFile(*five.design)));
+  const Request again = request_from_json(record);
+  EXPECT_EQ(again.key(), six.key());
+  const std::string refused = complaint([&] { DesignFile(*again.design).require_valid(); });
+  EXPECT_NE(refused.find("layout.file_checksum"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("put the earlier file back"), std::string::npos) << refused;
+}
+
 TEST(Request, GoesThroughJson) {
   const Request request = make_request(DesignFile(), 4, 0.45);
   const Request again = request_from_json(nlohmann::json::parse(to_json(request).dump()));

@@ -122,6 +122,20 @@ TEST(Objective, ALimitCostsWhereItsMeanIsNotKept) {
   EXPECT_NEAR(score(target, {steep}).value, step + square(std::log(2.0)), 1e-13);
 }
 
+// Four of five blocks have no slope (no plateau was found): a mean over the one that has says nothing of them, and each
+// counts as a measure that was not reached, 2 (ln floor)^2.
+TEST(Objective, BlocksWithoutTheMeasureDoNotKeepItsWish) {
+  Target target = target_of(2e5);
+  target.weights[place_of("cap_ratio")] = 0.0;
+  target.limits[place_of("slope")] = {0.8, 1.25};
+  std::vector<Evaluation> runs(5, run(2e5));
+  for (Evaluation& one : runs) one.summary.slope = nan_value;
+  runs.front().summary.slope = 1.0;
+  const Score value = score(target, runs);
+  EXPECT_NEAR(value.value, 0.8 * 2.0 * step, 1e-12);
+  EXPECT_EQ(value.not_kept, 1);
+}
+
 // No plateau was found on the curve: the worst there is, ln(floor) squared, but a number that can be searched on.
 TEST(Objective, ACurveWithoutAFoundPlateauIsWorstNotFailed) {
   Evaluation without = run(nan_value);

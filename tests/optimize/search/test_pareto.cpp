@@ -59,7 +59,9 @@ TEST_F(ParetoStudy, IsWhatLiesBetweenTheBestOfEachObjective) {
   EXPECT_GE(between, 10);
   for (const ParetoMember& member : members) {
     EXPECT_LT(member.candidate->values[0], missed_from);
-    if (member.candidate->values[0] < first_best) EXPECT_LT(first_best - member.candidate->values[0], nearest);
+    if (member.candidate->values[0] < first_best) {
+      EXPECT_LT(first_best - member.candidate->values[0], nearest);
+    }
   }
   EXPECT_TRUE(std::is_sorted(members.begin(), members.end(), [](const ParetoMember& a, const ParetoMember& b) {
     return a.score.value < b.score.value;

@@ -97,6 +97,10 @@ TEST_F(StudyFile, EnumeratesArmsAndSharesMaxeval) {
   EXPECT_EQ(seeds.size(), study.arms.size());
 }
 
+TEST_F(StudyFile, WholeNumbersOfArmsMayBeWrittenWithAPoint) {
+  EXPECT_EQ(names(read(study_text("maxeval = 4", "rows = [2.0, 3.0, 2]"))), (std::vector<std::string>{"rows=2", "rows=3"}));
+}
+
 // A stagger moves the rows of a staggered pattern and says nothing to a square one.
 TEST_F(StudyFile, AVariableWithoutEffectIsTold) {
   const Study study = read(

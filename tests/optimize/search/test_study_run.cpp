@@ -305,6 +305,21 @@ TEST_F(StudyRunTest, RefusesADesignThatChangedBehindIt) {
   EXPECT_NE(input_error([&] { StudyRun other(study(), resume); }).find("design.material.horizon"), std::string::npos);
 }
 
+// A curve to draw beside the results, frames and checkpoints change no run and no search.
+TEST_F(StudyRunTest, WhatIsOnlyDrawnOrWrittenMayChangeBehindIt) {
+  const auto expected = [&] {
+    StudyRun run(study(), options("out"));
+    return finish(run);
+  }();
+  folder.file("press.csv", "strain,stress\n0,0\n0.1,1e6\n");
+  std::ofstream(folder / "design.toml", std::ios::app)
+      << "[output]\ncurve = \"press.csv\"\nframes = \"none\"\n[material]\ncharacteristic_length = \"8 mm\"\n";
+  WorkOptions resume = options("out");
+  resume.resume = true;
+  StudyRun again(study(), resume);
+  EXPECT_EQ(finish(again), expected);
+}
+
 TEST_F(StudyRunTest, GoesOnWithTheJournalOfAProgramThatKnewAKeyLess) {
   const auto expected = [&] {
     StudyRun run(study(), options("out"));
