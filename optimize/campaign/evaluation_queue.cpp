@@ -222,7 +222,7 @@ std::string EvaluationQueue::time_left(std::int64_t remaining) const {
 }
 
 std::vector<std::string> EvaluationQueue::own_files() {
-  return {journal_name, runs_folder, histories_folder, SharedFolder::name};
+  return {journal_name, runs_folder, histories_folder, SharedFolder::folder_name};
 }
 
 std::filesystem::path EvaluationQueue::run_file(const Request& request) {

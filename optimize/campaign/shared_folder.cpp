@@ -66,7 +66,7 @@ SharedRequest shared_request_from_json(const json& record) {
   return {record.at("key").get<std::string>(), record.at("full_key").get<std::string>(), request_from_json(record)};
 }
 
-SharedFolder::SharedFolder(fs::path work) : work_(std::move(work)), shared_(work_ / name) {}
+SharedFolder::SharedFolder(fs::path work) : work_(std::move(work)), shared_(work_ / folder_name) {}
 
 void SharedFolder::begin() const {
   for (const char* name : {"requests", "claims", "events", "progress"}) io::make_folders(shared_ / name);

@@ -29,7 +29,7 @@ struct SharedRequest {
 /// Nothing is changed in place, and an answer that is read twice is the same twice.
 class SharedFolder {
  public:
-  static constexpr const char* name = "shared";  ///< of the folder
+  static constexpr const char* folder_name = "shared";
   /// `work`: the folder with the journal.
   explicit SharedFolder(std::filesystem::path work);
 
