@@ -300,6 +300,7 @@ CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_r
     const Origin origin{path.string(), lines.number(), ""};
     std::vector<std::string> fields = text_fields(lines.line());
     if (table.names.empty()) {
+      if (lines.line().find(',') == std::string_view::npos) fields = header_fields(lines.line());
       for (const std::string& field : fields) {
         Heading heading = heading_of(field);
         table.names.push_back(std::move(heading.name));

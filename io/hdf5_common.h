@@ -74,8 +74,8 @@ Hdf5Handle memory_access();
 std::string refused_dataset(hid_t dataset, std::uint64_t size);
 
 /// Tries a file without a checksum in a process of its own: reads every object of it there. HDF5 may crash or never
-/// end on a damaged one; then this is false. `size` is that of the file in bytes. Throws SurroundingsError where there is
-/// no such process, or where it was ended from outside.
+/// end on a damaged one; then this is false. `size` is that of the file in bytes. Throws SurroundingsError where there
+/// is no such process, or where it was ended from outside.
 bool survives_reading(const std::filesystem::path& path, std::uint64_t size);
 
 }  // namespace perfora::io

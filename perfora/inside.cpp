@@ -1,6 +1,7 @@
 // What is here: what the sources of this room share. What is not: the public functions.
 #include "perfora/inside.h"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -182,8 +183,11 @@ std::string in_words_of_the_library(std::string message) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {" with -o", ""}, {"--resume", "`resume`"}, {"--force", "`force`"}};
   for (const auto& [flag, option] : words)
-    for (std::size_t at = message.find(flag); at != std::string::npos; at = message.find(flag, at + option.size()))
-      message.replace(at, flag.size(), option);
+    for (std::size_t at = message.find(flag); at != std::string::npos; at = message.find(flag, at + 1)) {
+      const bool of_command =
+          std::count(message.begin(), message.begin() + static_cast<std::ptrdiff_t>(at), '`') % 2 == 1;
+      if (!of_command) message.replace(at, flag.size(), option);
+    }
   return message;
 }
 

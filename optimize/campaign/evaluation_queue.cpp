@@ -111,7 +111,9 @@ void EvaluationQueue::take_over(json event, const std::filesystem::path& folder)
 
 void EvaluationQueue::take_history(const std::filesystem::path& folder, const std::string& written,
                                    const std::string& key) const {
-  const std::filesystem::path there = folder / history_file(written), here = options_.folder / history_file(key);
+  const std::filesystem::path here = options_.folder / history_file(key);
+  std::filesystem::path there = folder / history_file(written);
+  if (!std::filesystem::exists(there)) there = folder / history_file(key);  // renamed there already
   if (!std::filesystem::exists(there) || std::filesystem::exists(here)) return;
   io::make_folders(options_.folder / histories_folder);
   if (folder == options_.folder)

@@ -37,7 +37,8 @@ void Answers::add(const std::string& key, Evaluation evaluation) {
 bool is_answer(const Evaluation& evaluation, const Request& request) {
   if (!request.material_test.empty()) return true;  // Its key says all of it.
   const results::Summary& summary = evaluation.summary;
-  if (evaluation.status == results::RunStatus::failed) return !(summary.final_strain > request.strain() + results::strain_rounding);
+  if (evaluation.status == results::RunStatus::failed)
+    return !(summary.final_strain > request.strain() + results::strain_rounding);
   return std::abs(summary.final_strain - request.strain()) < results::strain_rounding &&
          summary.measured == request.design->measuring_frame().text();
 }

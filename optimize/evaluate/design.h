@@ -93,6 +93,13 @@ class DesignFile {
 /// The design without the places of its files whose content it knows: what tells designs apart.
 Design without_places(Design design);
 
+/// The first file of a design from a record or another host that does not hold what it held when the design was
+/// written.
+struct ChangedFile {
+  std::string key, problem;  ///< "layout.file", a sentence; both empty where there is none
+};
+ChangedFile changed_file(const Design& design);
+
 /// `stored`, the resolved configuration in a file or journal, as it tells designs apart: old names of keys resolved,
 /// keys that it lacks at their defaults, without_places(); as it is where it holds keys that this program does not
 /// know.

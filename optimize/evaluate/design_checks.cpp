@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "geometry/jam.h"
 #include "geometry/make_packing.h"
@@ -305,22 +306,11 @@ void warn_about_window(const Design& design, std::vector<std::string>& warnings)
       io::quantity(until, io::Dimension::ratio), io::quantity(measures.plateau_end, io::Dimension::ratio)));
 }
 
-/// A design from a record or another host says what its files hold; results go by that.
 void check_file_contents(const Design& design, const io::Schema& schema) {
-  const auto check = [&](const char* key, const std::filesystem::path& file, const std::string& then) {
-    if (file.empty() || then.empty()) return;
-    const std::string now = io::content_checksum(file);
-    if (now == then) return;
-    const std::string name = std::string(key) + io::checksum_suffix;
+  if (const auto [key, problem] = changed_file(design); !problem.empty())
     throw io::InputError(
-        schema.origin(name),
-        fmt::format("{} holds something else ({}) than when this design was written ({})", file.string(), now, then),
-        "results belong to what the file held then",
-        fmt::format("put the earlier file back, or remove {} and begin anew", name));
-  };
-  check("layout.outline", design.layout.outline, design.layout.outline_checksum);
-  check("layout.file", design.layout.file, design.layout.file_checksum);
-  check("packing.file", design.packing.file, design.packing.file_checksum);
+        schema.origin(key + io::checksum_suffix), problem, "results belong to what the file held then",
+        fmt::format("put the earlier file back, or remove {}{} and begin anew", key, io::checksum_suffix));
 }
 
 enum class Warnings { all, cheap };
@@ -365,6 +355,25 @@ io::InputError at_home(const io::InputError& error, const Design& design, const 
 }
 
 }  // namespace
+
+ChangedFile changed_file(const Design& design) {
+  const std::tuple<const char*, const std::filesystem::path&, const std::string&> files[] = {
+      {"layout.outline", design.layout.outline, design.layout.outline_checksum},
+      {"layout.file", design.layout.file, design.layout.file_checksum},
+      {"packing.file", design.packing.file, design.packing.file_checksum}};
+  for (const auto& [key, file, then] : files) {
+    if (file.empty() || then.empty()) continue;
+    std::string now = "it cannot be read";
+    try {
+      now = io::content_checksum(file);
+    } catch (const io::InputError&) {
+    }
+    if (now != then)
+      return {key, fmt::format("{} does not hold what it held when this design was written ({}, then {})",
+                               file.string(), now, then)};
+  }
+  return {};
+}
 
 std::vector<std::string> DesignFile::validate(Purpose purpose) const {
   try {

@@ -214,7 +214,11 @@ nlohmann::json evaluation_record(const DesignFile& design, const Evaluation& eva
   const results::Target& target = design.design().target;
   const Evaluation* const one = &evaluation;
   if (!results::wishes(target).empty()) record["verdict"] = results::to_json(results::verdict_on(target, {&one, 1}));
-  std::vector<std::string> warnings = design.validate();
+  std::vector<std::string> warnings;
+  try {
+    warnings = design.validate();
+  } catch (const io::InputError&) {  // a file was changed while the run went on: the run is worth what it was
+  }
   for (std::string& told : validity_warnings(evaluation, design.design().solver.loading))
     warnings.push_back(std::move(told));
   record["warnings"] = warnings;

@@ -110,6 +110,9 @@ Evaluation evaluate_request(const Request& request, int threads, const io::Cance
     if (!request.material_test.empty())
       return evaluate_material_test(design, material_test_called(request.material_test), request.replicate, threads,
                                     cancellation);
+    // No fault of the design: it is tried again once the file is back.
+    if (const std::string problem = changed_file(design.design()).problem; !problem.empty())
+      throw io::SurroundingsError(problem + "; put the earlier file back");
     if (request.until > 0.0) design.schema().set_number("loading.until", request.until, {"request", 0, "until"});
     design.require_valid();
     if (const std::string problem = memory > 0.0 ? memory_problem(design, memory) : std::string(); !problem.empty())

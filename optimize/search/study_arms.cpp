@@ -63,8 +63,9 @@ Axis list_axis(const Study& study, const NamedKey& named, const io::Entry& entry
       throw io::InputError(origin_in(study, "arms", entry), "arms are whole numbers or names", "",
                            fmt::format("move {} to [variables] with bounds", named.name));
     scratch.schema().set(key.full_name(), value, origin_in(study, "arms", entry));
-    io::Value taken = scratch.schema().at(key.full_name()).get();  // 2.0 is 2 where the key holds whole numbers
-    taken.line = value.line;
+    io::Value taken = value;
+    if (key.type == io::KeyType::integer)
+      taken.data = scratch.schema().at(key.full_name()).get().data;  // 2.0 is 2 where the key holds whole numbers
     const bool known = std::any_of(axis.values.begin(), axis.values.end(),
                                    [&](const io::Value& other) { return value_name(other) == value_name(taken); });
     if (!known) axis.values.push_back(std::move(taken));

@@ -99,15 +99,18 @@ json study_identity(const Study& study) {
   return {{"resolved", resolved}, {"fidelities", fidelities}, {"file", study.file.filename().string()}};
 }
 
-/// Keys of the design that heads of earlier programs have and that no search goes by; places of files whose content is
-/// known, and that content where an earlier program did not note it.
-bool counts_for_nothing(const std::string& key, const json& there, const json& here) {
-  constexpr std::string_view design = "design.";
+/// Keys of the design that heads of earlier programs have and that no search goes by. Places of files whose content
+/// both know; of a head that does not know it the place and the content, where the study names the same place.
+bool counts_for_nothing(const Study& study, const std::string& key, const json& there) {
+  constexpr std::string_view design = "design.", suffix = io::checksum_suffix;
   if (!key.starts_with(design)) return false;
   if (!changes_search(key.substr(design.size()))) return true;
-  const std::string content = key + io::checksum_suffix;
-  return (here.contains(content) && here.at(content) != "") ||
-         (key.ends_with(io::checksum_suffix) && !there.contains(key));
+  const std::string place = key.ends_with(suffix) ? key.substr(0, key.size() - suffix.size()) : key;
+  const io::Schema& schema = study.start->schema();
+  const io::Key* file = schema.find(place.substr(design.size()));
+  if (!file || !schema.find(place.substr(design.size()) + io::checksum_suffix)) return false;
+  if (there.contains(place + io::checksum_suffix)) return key == place && there.at(place + io::checksum_suffix) != "";
+  return there.value(place, "") == io::value_text(file->get());
 }
 
 std::string name_today(const Study& study, const std::string& key) {
@@ -133,7 +136,7 @@ std::vector<Difference> differences(const Study& study, const json& head) {
   std::vector<Difference> found;
   for (const std::string& key : keys) {
     if (!there.contains(key) && at_default.contains(key)) continue;
-    if (counts_for_nothing(key, there, here)) continue;
+    if (counts_for_nothing(study, key, there)) continue;
     Difference one{key, text(there, key), text(here, key)};
     if (one.there != one.here) found.push_back(std::move(one));
   }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "geometry/wall.h"
+#include "io/text.h"
 #include "report/export/hole_list.h"
 
 namespace perfora::report {
@@ -32,15 +33,23 @@ double text_width(const std::string& words, double height) {
   return letter * height * static_cast<double>(words.size());
 }
 
-/// The text in lines of at most this width, broken between words; a longer word stands out.
+/// The text in lines of at most this width, broken between words, and within one that is longer.
 std::vector<std::string> wrapped_lines(const std::string& text, double width, double height) {
   std::vector<std::string> lines;
   std::istringstream words(text);
-  for (std::string word; words >> word;)
+  const auto most = static_cast<std::size_t>(std::max(1.0, width / (letter * height)));
+  for (std::string word; words >> word;) {
+    while (word.size() > most) {
+      const std::string begin(io::beginning(word, most));  // no half of a sign
+      if (begin.empty()) break;
+      lines.push_back(begin);
+      word.erase(0, begin.size());
+    }
     if (!lines.empty() && text_width(lines.back() + " " + word, height) <= width)
       lines.back() += " " + word;
     else
       lines.push_back(word);
+  }
   return lines;
 }
 
@@ -98,6 +107,7 @@ class Sheet {
       rows.emplace_back("at the edges", "a hole across an edge goes on at the opposite one");
     rows.insert(rows.end(), sheet_.notes.begin(), sheet_.notes.end());
     for (const auto& [name, words] : rows) title_rows_.push_back({name, wrapped_lines(words, words_width, small)});
+    scale_row_ = title_rows_.size();
     title_rows_.push_back({"scale", {}});  // names the sheet once it is chosen
     title_rows_.push_back({"from", wrapped_lines(sheet_.source, words_width, small)});
     title_lines_ = wrapped_lines(sheet_.title, list_width - 4.0, large);
@@ -137,7 +147,8 @@ class Sheet {
         {{297.0, 210.0}, {420.0, 297.0}, {594.0, 420.0}, {841.0, 594.0}, {1189.0, 841.0}}};
     constexpr const char* names[] = {"A4", "A3", "A2", "A1", "A0"};
     const double wide = binding + beside + width_ + gap + list_width + margin;
-    const double high = margin + below + height_ + above + margin;
+    const double high = std::max(margin + below + height_ + above + margin,
+                                 2.0 * margin + title_block_height() + 2.0 * row_height + 2.0);
     drawing_.width = wide;
     drawing_.height = std::max(high, 210.0);
     size_name_ = "no ISO size";
@@ -309,8 +320,7 @@ class Sheet {
 
   void draw_title_block() {
     const double left = right_ - list_width;
-    for (TitleRow& row : title_rows_)
-      if (row.name == "scale") row.lines = {"1:1, " + size_name_ + ", dimensions in mm"};
+    title_rows_[scale_row_].lines = {"1:1, " + size_name_ + ", dimensions in mm"};
     double y = margin;
     const auto draw_lines = [&](double from_left, const std::vector<std::string>& lines, double height, double step) {
       for (std::size_t k = 0; k < lines.size(); ++k)
@@ -369,7 +379,7 @@ class Sheet {
   geometry::ThinnestWall wall_;
   std::vector<TitleRow> title_rows_;  ///< the lowest last
   std::vector<std::string> title_lines_;
-  std::size_t columns_ = 1;  ///< of the list
+  std::size_t columns_ = 1, scale_row_ = 0;  ///< of the list; place in title_rows_
   std::string size_name_;
 };
 

@@ -173,6 +173,18 @@ TEST(Drawing, LongTextsAreBrokenIntoLines) {
     for (std::string word; words >> word;) EXPECT_THAT(all, HasSubstr(word));
   }
   EXPECT_THAT(all, ::testing::Not(HasSubstr("...")));
+  // A name without blanks is broken within; a note called scale is not that of the sheet.
+  sheet.title = std::string(150, 'x');
+  sheet.notes = {{"scale", "see contract"}};
+  int letters = 0, contracts = 0;
+  for (const auto& text : draw_block_sheet(sheet).texts) {
+    EXPECT_LE(text.text.size(), 60U);
+    letters += static_cast<int>(std::count(text.text.begin(), text.text.end(), 'x') *
+                                (text.text.find_first_not_of('x') == std::string::npos));
+    contracts += text.text == "see contract";
+  }
+  EXPECT_EQ(letters, 150);
+  EXPECT_EQ(contracts, 1);
 }
 
 // Everything stands on the sheet: blocks from 12 mm to 1.5 m.

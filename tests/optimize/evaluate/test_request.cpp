@@ -127,6 +127,8 @@ TEST(Request, FilesCountByWhatTheyHold) {
   EXPECT_FALSE(same_configuration(record.at("design"), DesignFile(*five.design)));
   const Request again = request_from_json(record);
   EXPECT_EQ(again.key(), six.key());
+  // Not a failed design, which a journal would keep: the request is tried again once the file is back.
+  EXPECT_THROW(static_cast<void>(evaluate_request(again, 1)), io::SurroundingsError);
   const std::string refused = complaint([&] { DesignFile(*again.design).require_valid(); });
   EXPECT_NE(refused.find("layout.file_checksum"), std::string::npos) << refused;
   EXPECT_NE(refused.find("put the earlier file back"), std::string::npos) << refused;
