@@ -88,11 +88,11 @@ class Schema;
 /// Whether a list may be written as one number, without brackets.
 enum class OneNumber { refused, taken };
 
-/// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at
-/// that moment is the default.
 /// Behind the name of a key of a file, that of the key of its content.
 inline constexpr const char* checksum_suffix = "_checksum";
 
+/// Adds the keys of one section; every call binds a key to a field that must outlive the Schema. The field's value at
+/// that moment is the default.
 class Section {
  public:
   Section& real(std::string name, double& field, Dimension dimension, Range range, std::string help);
