@@ -40,7 +40,7 @@ bool has_finished(const fs::path& folder) {
   return !events.empty() && events.back().at("event") == "finished";
 }
 
-/// Whoever evaluates may be there before whoever asks; a folder that did not come in time is a slip of the pen.
+/// Whoever evaluates may be there before whoever asks; a folder that has not come in time is a mistake in the name.
 void require_folder(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw io::InputError({folder.string(), 0, ""}, "there is no such folder",
