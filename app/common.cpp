@@ -283,15 +283,6 @@ std::filesystem::path output_or_default(const std::filesystem::path& given, cons
   return fallback;
 }
 
-io::OutputLock claim_new_output(const std::filesystem::path& path, bool force) {
-  io::check_output(path, true, false);  // that there is a folder for the lock, and what is there may be replaced
-  io::OutputLock lock(path);
-  if (!force && std::filesystem::exists(path))
-    throw io::InputError({path.string(), 0, ""}, "already exists", "",
-                         "--force replaces it, or name another output with -o");
-  return lock;
-}
-
 std::string default_name(const std::filesystem::path& design, const std::string& suffix) {
   return design.stem().string() + suffix;
 }

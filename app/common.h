@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "io/cancellation.h"
-#include "io/lock.h"
 #include "io/progress.h"
 #include "results/progress.h"
 #include "results/status.h"
@@ -116,9 +115,6 @@ void refuse_resume_with_force(bool resume, bool force);
 
 /// The output path: `given`, or `fallback` in the current folder, announced on standard error.
 std::filesystem::path output_or_default(const std::filesystem::path& given, const std::string& fallback);
-/// Takes an output that cannot be resumed: holds its lock, refuses one that exists unless `force`, one that another
-/// process uses in any case, and a folder that is missing or not writable.
-[[nodiscard]] io::OutputLock claim_new_output(const std::filesystem::path& path, bool force);
 /// "stem of the design" + suffix.
 std::string default_name(const std::filesystem::path& design, const std::string& suffix);
 /// Logs each warning of DesignFile::validate().

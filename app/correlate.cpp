@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
+#include "io/lock.h"
 #include "io/text.h"
 #include "optimize/campaign/sweep.h"
 #include "optimize/campaign/sweep_comparison.h"
@@ -110,7 +111,7 @@ int correlate(const CorrelateFlags& flags) {
   if (measures.empty())
     throw io::InputError({"--measures", 0, ""}, "no result is named", "names such as plateau_stress", "");
   io::OutputLock lock;
-  if (!flags.output.empty()) lock = claim_new_output(flags.output, flags.common.force);
+  if (!flags.output.empty()) lock = io::claim_new_output(flags.output, flags.common.force);
   const SweepRecord reference = optimize::read_completed_sweep(flags.reference);
   std::vector<Comparison> comparisons;
   nlohmann::json entries = nlohmann::json::array();

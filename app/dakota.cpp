@@ -11,6 +11,7 @@
 
 #include "io/error.h"
 #include "io/files.h"
+#include "io/lock.h"
 #include "io/text.h"
 #include "optimize/evaluate/evaluation.h"
 #include "results/measure_table.h"
@@ -166,7 +167,7 @@ DakotaRequest read_dakota_parameters(const fs::path& file) {
 }
 
 int evaluate_for_dakota(const DakotaFiles& files, const CommonFlags& flags, const std::vector<std::string>& overrides) {
-  const io::OutputLock lock = claim_new_output(files.results, flags.force);
+  const io::OutputLock lock = io::claim_new_output(files.results, flags.force);
   const DakotaRequest request = read_dakota_parameters(files.parameters);
   const auto measures = measures_asked(request, files.parameters);
   check_keys(optimize::DesignFile(files.design, overrides), request, files.parameters);

@@ -12,6 +12,7 @@
 #include "io/files.h"
 #include "io/hdf5.h"
 #include "io/letters.h"
+#include "io/lock.h"
 #include "io/provenance.h"
 #include "io/text.h"
 #include "optimize/evaluate/design.h"
@@ -98,7 +99,7 @@ int draw(const DrawFlags& flags) {
   if (!flags.title.empty()) sheet.title = flags.title;
   for (const std::string& note : flags.notes) sheet.notes.push_back(note_of(note));
   sheet.source = input.filename().string() + ", perfora " + io::program_version();
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock = io::claim_new_output(output, flags.common.force);
   const report::Drawing drawing = report::draw_block_sheet(sheet);
   io::write_file(output, extension == ".svg" ? report::as_svg(drawing) : report::as_dxf(drawing));
   if (flags.common.json)
@@ -117,7 +118,9 @@ void add_draw(CLI::App& program, int& exit_code) {
   command->add_option("--title", flags->title, "Title of the sheet (default: that of the design, or FILE's name)")
       ->type_name("TEXT");
   command
-      ->add_option("--note", flags->notes, "A row of the title block, such as \"mortar=C25/30, E 8 GPa\" (repeatable)")
+      ->add_option(
+          "--note", flags->notes,
+          "A row of the title block, such as \"mortar=C25/30, E 8 GPa\"; without NAME= it is called note (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=TEXT");
   add_common_flags(*command, flags->common);

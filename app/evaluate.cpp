@@ -13,6 +13,7 @@
 #include "app/reports.h"
 #include "app/terminal.h"
 #include "io/error.h"
+#include "io/lock.h"
 #include "io/text.h"
 #include "optimize/campaign/ensemble.h"
 #include "optimize/evaluate/elastic_response.h"
@@ -116,7 +117,7 @@ int evaluate_elastic(const EvaluateFlags& flags) {
   check_cost(design, flags.common);
   const auto output = output_or_default(flags.output, default_name(flags.design, "-elastic.h5"));
   if (!flags.packing.empty()) optimize::require_packing_file(design, flags.packing, 0);
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock = io::claim_new_output(output, flags.common.force);
   log_warnings(warnings);
   ProgressLine progress("packing", flags.common.quiet);
   const optimize::ElasticResponse answer = optimize::elastic_response(design, evaluate_options(flags, progress), 0);

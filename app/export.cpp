@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
+#include "io/lock.h"
 #include "io/units.h"
 #include "report/export/registry.h"
 
@@ -55,7 +56,7 @@ int run_export(const ExportFlags& flags) {
   std::vector<std::string> outputs;
   for (const report::Export* one : list) {
     outputs.push_back(report::with_extension(base, one->extension).string());
-    locks.push_back(claim_new_output(outputs.back(), flags.common.force));
+    locks.push_back(io::claim_new_output(outputs.back(), flags.common.force));
     for (const std::string& other : one->others) {
       const std::string name = report::with_extension(base, other).string();
       if (other.back() == '/') {
@@ -64,7 +65,7 @@ int run_export(const ExportFlags& flags) {
         continue;
       }
       outputs.push_back(name);
-      locks.push_back(claim_new_output(name, flags.common.force));
+      locks.push_back(io::claim_new_output(name, flags.common.force));
     }
   }
   for (const report::Export* one : list) one->write(scene, base);

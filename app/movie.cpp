@@ -6,13 +6,17 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <string_view>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
 #include "io/files.h"
+#include "io/letters.h"
+#include "io/lock.h"
 
 extern char** environ;  // NOLINT: POSIX names it
 
@@ -54,6 +58,16 @@ bool run_program(std::vector<std::string> words) {
   return waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+/// Throws io::InputError for the name of a film: movie writes a folder.
+void refuse_name_of_film(const fs::path& folder) {
+  constexpr std::array<std::string_view, 7> films = {".mp4", ".gif", ".webm", ".avi", ".mkv", ".mov", ".png"};
+  const std::string extension = io::lower(folder.extension().string());
+  if (std::find(films.begin(), films.end(), extension) != films.end() && !fs::is_directory(folder))
+    throw io::InputError({"-o", 0, folder.string()}, "is the name of one file",
+                         fmt::format("a folder is written: the pictures, and {} where ffmpeg is installed", film_name),
+                         "name the folder: -o " + fs::path(folder).replace_extension().string());
+}
+
 /// The folder, without the pictures of an earlier film. Throws io::InputError where there are some and no --force.
 void clear_folder(const fs::path& folder, bool force) {
   if (fs::exists(folder) && !fs::is_directory(folder))
@@ -73,6 +87,7 @@ void clear_folder(const fs::path& folder, bool force) {
 
 int movie(const MovieFlags& flags) {
   flags.common.apply();
+  refuse_name_of_film(flags.output);
   const results::RunResult run = results::read_run(flags.input);
   const fs::path folder = output_or_default(flags.output, default_name(flags.input, "-movie"));
   clear_folder(folder, flags.common.force);

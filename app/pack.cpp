@@ -49,8 +49,7 @@ int pack(const PackFlags& flags) {
 
 void add_pack(CLI::App& program, int& exit_code) {
   auto flags = std::make_shared<PackFlags>();
-  CLI::App* command =
-      program.add_subcommand("pack", "Make the disc packing of a design and clip it by the perforations");
+  CLI::App* command = program.add_subcommand("pack", "Make the disc packing of a design and clip it by the holes");
   command->add_option("DESIGN", flags->design, "Design file (TOML)")->required();
   command->add_option("-o,--output", flags->output, "Packing file to write (default: DESIGN's name + -packing.h5)")
       ->type_name("P.h5");

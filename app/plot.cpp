@@ -12,6 +12,7 @@
 #include "app/measured_curves.h"
 #include "io/error.h"
 #include "io/hdf5.h"
+#include "io/lock.h"
 #include "optimize/evaluate/design.h"
 #include "results/describe.h"
 
@@ -101,9 +102,7 @@ void draw_design(const fs::path& input, const fs::path& output, const PlotFlags&
   if (const std::string kind = results::kind_of_toml(input); kind != "design")
     throw io::InputError(
         {input.string(), 0, ""}, "this is a " + kind + ", and plot draws the layout of a design", "",
-        fmt::format("give the design it names, or its folder after perfora {}", kind == "study"   ? "optimize"
-                                                                                : kind == "sweep" ? "sweep"
-                                                                                                  : "calibrate"));
+        fmt::format("give the design it names, or the folder of its results after {}", results::command_of(kind)));
   const optimize::DesignFile design(input, flags.common.overrides());
   static_cast<void>(design.validate(optimize::Purpose::block));
   const optimize::Design& d = design.design();
@@ -161,7 +160,7 @@ int plot(const PlotFlags& flags) {
   const std::string name =
       flags.inputs.size() > 1 ? "comparison.png" : default_name(without_slash(flags.inputs.front()), ".png");
   const auto output = output_or_default(flags.output, name);
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock = io::claim_new_output(output, flags.common.force);
   draw(flags, output);
   if (flags.common.json)
     print_json({{"schema", "perfora.plot/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});

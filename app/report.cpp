@@ -2,10 +2,15 @@
 // (report/html_report.h), what the commands write at their end (reports.h).
 #include "report/html_report.h"
 
+#include <fmt/format.h>
+
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/reports.h"
 #include "io/error.h"
+#include "io/letters.h"
+#include "io/lock.h"
+#include "results/describe.h"
 
 namespace perfora::app {
 
@@ -23,9 +28,14 @@ int report_on(const ReportFlags& flags) {
   flags.common.apply();
   const fs::path input = flags.input;
   if (!fs::exists(input)) throw io::InputError({flags.input, 0, ""}, "there is no such file or folder");
+  if (io::lower(input.extension().string()) == ".toml" && !fs::is_directory(input)) {
+    const std::string kind = results::kind_of_toml(input), command = results::command_of(kind);
+    throw io::InputError({flags.input, 0, ""}, "this is a " + kind + ", and a report is of results", "",
+                         fmt::format("run {} {}, and give what it writes", command, flags.input));
+  }
   const fs::path named = input.has_filename() ? input : input.parent_path();
   const auto output = output_or_default(flags.output, default_name(named, ".html"));
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
+  const io::OutputLock lock = io::claim_new_output(output, flags.common.force);
   write_report_of(input, output, flags.wish);
   if (flags.common.json)
     print_json({{"schema", "perfora.report/1"}, {"status", "completed"}, {"reason", ""}, {"output", output.string()}});

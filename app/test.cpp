@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "io/error.h"
+#include "io/lock.h"
 #include "io/text.h"
 #include "optimize/evaluate/material_tests.h"
 #include "optimize/evaluate/material_tests_file.h"
@@ -30,8 +31,8 @@ int test(const TestFlags& flags) {
     io::log_warning("material tests are periodic, with sides that follow a stress; [boundary] is not looked at");
   const auto output = output_or_default(flags.output, default_name(flags.material, "-test.h5"));
   const auto picture = std::filesystem::path(output).replace_extension(".png");
-  const io::OutputLock lock = claim_new_output(output, flags.common.force);
-  const io::OutputLock lock_of_picture = claim_new_output(picture, flags.common.force);
+  const io::OutputLock lock = io::claim_new_output(output, flags.common.force);
+  const io::OutputLock lock_of_picture = io::claim_new_output(picture, flags.common.force);
 
   ProgressLine progress("material tests", flags.common.quiet);
   optimize::MaterialTestsOptions options;

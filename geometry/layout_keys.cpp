@@ -116,7 +116,7 @@ void describe(io::Schema& schema, LayoutOptions& options) {
           "scale", options.scale, Dimension::none, {1e-3, 1e3, false, false},
           "Factor on every length of [cell] and [layout], the discs left as they are: the same pattern this many times "
           "as large in the same material (docs/user/theory.md, \"Grade, strength, scale\").");
-  io::Section section = schema.section("layout", "Where the perforations are.");
+  io::Section section = schema.section("layout", "Where the holes are.");
   section.choice("family", options.family,
                  {{"none", LayoutFamily::none},
                   {"square", LayoutFamily::square},

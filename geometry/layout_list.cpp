@@ -106,9 +106,11 @@ class NamedRows {
     const std::string field = text(row, column);
     if (field.empty()) return std::nullopt;
     const double plain = io::number_in(field);
-    const std::string unit = std::isnan(plain) ? std::string() : " " + unit_of(column, dimension);
-    const double value =
-        unit.size() > 1 || std::isnan(plain) ? io::parse_quantity({field + unit, 0}, dimension, origin(row)) : plain;
+    const std::string unit = std::isnan(plain) ? std::string() : unit_of(column, dimension);
+    std::string quantity = field;
+    if (!unit.empty()) quantity.append(" ").append(unit);
+    const bool has_unit = std::isnan(plain) || !unit.empty();
+    const double value = has_unit ? io::parse_quantity({quantity, 0}, dimension, origin(row)) : plain;
     if (!std::isfinite(value))
       throw io::InputError(origin(row), std::string("column ") + column + ": " + field + " is not a finite number");
     return value;

@@ -226,7 +226,7 @@ Packing quench(SoftDiscs start, double wanted, double unit, double width, double
 void describe(io::Schema& schema, PackingOptions& options) {
   using io::Dimension;
   using io::Range;
-  schema.section("packing", "The discs: periodic over the whole cell, before the perforations take theirs away.")
+  schema.section("packing", "The discs: periodic over the whole cell, before the holes are cut out.")
       .real("mean_diameter", options.mean_diameter, Dimension::length, Range::positive(),
             "Number mean of the diameters.")
       .real("maximum_diameter", options.maximum_diameter, Dimension::length, Range::positive(), "Largest diameter.")
@@ -238,7 +238,7 @@ void describe(io::Schema& schema, PackingOptions& options) {
               "How a wanted solid fraction is met: jam and then shrink all discs alike, or stop an overlap "
               "minimisation there.")
       .choice("clip", options.clip, {{"centre", ClipRule::centre}, {"whole", ClipRule::whole}},
-              "A disc goes when its centre lies in a perforation, or when any of it does.")
+              "A disc goes when its centre lies in a hole, or when any of it does.")
       .file("file", options.file, options.file_checksum,
             "Discs to import instead of making a packing: CSV (x, y, radius or diameter; metres, or units in the "
             "header), LAMMPS text dump (its last frame) or data file.")

@@ -9,8 +9,8 @@
 
 #include "io/csv.h"
 #include "io/error.h"
-#include "io/files.h"
 #include "io/numbers.h"
+#include "io/text_file.h"
 
 namespace perfora::geometry {
 namespace {
@@ -151,7 +151,7 @@ std::variant<std::vector<WktPolygon>, WktProblem> parse_wkt_polygons(std::string
 
 std::vector<Point> read_outline(const std::filesystem::path& path) {
   constexpr std::size_t largest_file = std::size_t{1} << 24;
-  const std::string text = io::read_file(path, largest_file);
+  const std::string text = io::read_text_file(path, largest_file, "an outline (WKT or CSV)");
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && Scanner::starts_with_word(std::string_view(text).substr(first), word)) {
     auto read = parse_wkt_polygon(text);

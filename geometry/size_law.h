@@ -1,5 +1,5 @@
 // What is here: the size law of the discs, number density p(d) ~ d^-q on [d_max/ratio, d_max] (docs/user/theory.md,
-// "Block, perforations, packing"): exponent, moments, samples. What is not: the places of the discs.
+// "Block, holes, packing"): exponent, moments, samples. What is not: the places of the discs.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct SizeLaw {
 /// that the mean of the sample is that of the law to about 1/count^(3/2).
 std::vector<double> sample_diameters(const SizeLaw& law, std::int64_t count, std::uint64_t seed);
 
-/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter (docs/user/theory.md, "Block, perforations, packing").
-/// Throws io::InputError when the mean cannot be reached.
+/// Exponent q of the number density p(d) ~ d^-q on [d_max/ratio, d_max] whose mean is mean_diameter
+/// (docs/user/theory.md, "Block, holes, packing"). Throws io::InputError when the mean cannot be reached.
 double size_law_exponent(double mean_diameter, double maximum_diameter, double size_ratio);
 
 }  // namespace perfora::geometry

@@ -10,10 +10,10 @@
 #include <string_view>
 
 #include "io/error.h"
-#include "io/files.h"
 #include "io/letters.h"
 #include "io/numbers.h"
 #include "io/text.h"
+#include "io/text_file.h"
 #include "io/units.h"
 
 namespace perfora::io {
@@ -230,7 +230,7 @@ CsvTable rows_of(std::string_view text, const std::string& name, const std::vect
 }  // namespace
 
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<std::string>& wanted, std::size_t maximum_rows) {
-  return parse_csv(read_file(path, largest_table), path.string(), wanted, maximum_rows);
+  return parse_csv(read_text_file(path, largest_table, "a CSV table"), path.string(), wanted, maximum_rows);
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& name, const std::vector<std::string>& wanted,
@@ -243,7 +243,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name, const std::ve
 CsvTable read_csv(const std::filesystem::path& path, const std::vector<CsvQuantity>& wanted, std::size_t maximum_rows) {
   std::vector<std::string> names;
   for (const CsvQuantity& quantity : wanted) names.push_back(quantity.names.front());
-  return rows_of(read_file(path, largest_table), path.string(), names, maximum_rows,
+  return rows_of(read_text_file(path, largest_table, "a CSV table"), path.string(), names, maximum_rows,
                  [&](std::string_view line, const Origin& origin) { return layout_of(line, wanted, origin); });
 }
 
@@ -281,7 +281,7 @@ std::vector<std::string> text_fields(std::string_view line) {
 }  // namespace
 
 std::vector<std::string> csv_names(const std::filesystem::path& path) {
-  const std::string text = read_file(path, largest_table);
+  const std::string text = read_text_file(path, largest_table, "a CSV table");
   Lines lines(text);
   if (!lines.next()) return {};
   std::vector<std::string> names;
@@ -293,7 +293,7 @@ std::vector<std::string> csv_names(const std::filesystem::path& path) {
 }
 
 CsvTexts read_csv_texts(const std::filesystem::path& path, std::size_t maximum_rows) {
-  const std::string text = read_file(path, largest_table);
+  const std::string text = read_text_file(path, largest_table, "a CSV table");
   CsvTexts table;
   Lines lines(text);
   while (lines.next()) {
@@ -327,7 +327,7 @@ std::size_t TextTable::column(const std::string& name) const {
 }
 
 TextTable read_text_table(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  const std::string text = read_text_file(path, std::size_t{1} << 32, "a CSV table");
   TextTable table;
   table.path = path;
   int number = 0;

@@ -37,6 +37,10 @@ class OutputLock {
   std::unique_ptr<Held> held_;
 };
 
+/// Takes an output that cannot be resumed: holds its lock. Throws InputError where it exists and `force` is not given,
+/// where another process uses it, and where its folder is not writable.
+[[nodiscard]] OutputLock claim_new_output(const std::filesystem::path& output, bool force);
+
 /// "R.h5.lock", beside what the output is written to where that is a symbolic link (files.h).
 std::filesystem::path lock_file(const std::filesystem::path& output);
 

@@ -11,6 +11,7 @@
 #include "io/descriptor.h"
 #include "io/error.h"
 #include "io/files.h"
+#include "io/lock.h"
 
 namespace perfora::io {
 namespace {
@@ -74,6 +75,15 @@ void check_output(const std::filesystem::path& path, bool force, bool resume) {
     throw InputError(origin, "is " + kind, "only regular files are replaced", "choose another output");
   if (!force && !resume)
     throw InputError(origin, "already exists", "", "choose another output, --force to replace it or --resume to go on");
+}
+
+OutputLock claim_new_output(const std::filesystem::path& output, bool force) {
+  check_output(output, true, false);  // that there is a folder for the lock, and what is there may be replaced
+  OutputLock lock(output);
+  if (!force && std::filesystem::exists(output))
+    throw InputError({output.string(), 0, ""}, "already exists", "",
+                     "--force replaces it, or name another output with -o");
+  return lock;
 }
 
 }  // namespace perfora::io

@@ -20,9 +20,9 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-#include "io/files.h"
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/text_file.h"
 #include "io/toml.h"
 
 namespace perfora::io {
@@ -105,7 +105,7 @@ void forget_lines(Value& value) {
   std::string remedy = "texts and quantities with a unit need quotes, as in diameter = \"20 mm\"";
   if (said.find("redefine") != std::string::npos) remedy = "give each key and each section once";
   if (said.find("UTF-8") != std::string::npos || said.find("utf-8") != std::string::npos)
-    remedy = "save the file as UTF-8 text; what a result file holds is told by perfora show";
+    remedy = "save the file as UTF-8 text";
   throw InputError({file, static_cast<int>(error.source().begin.line), ""}, "not valid TOML: " + said, "", remedy);
 }
 
@@ -134,7 +134,7 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& name) {
 }
 
 std::vector<Entry> read_toml(const std::filesystem::path& path) {
-  return parse_toml(read_file(path, largest_toml), path.string());
+  return parse_toml(read_text_file(path, largest_toml, "a design or another TOML file"), path.string());
 }
 
 std::string title_in(const std::vector<Entry>& entries) {

@@ -22,13 +22,13 @@ using Fact = std::pair<std::string, std::string>;
 std::vector<Fact> facts_of(const geometry::PerforationLayout& layout, const geometry::ThinnestWall& wall,
                            double mean_diameter) {
   std::vector<Fact> facts = {{"block", io::quantities({layout.width, layout.height}, io::Dimension::length, " x ")},
-                             {"perforations", io::count(layout.perforations.size())},
+                             {"holes", io::count(layout.perforations.size())},
                              {"porosity", io::quantity(1.0 - layout.solid_area_fraction(), io::Dimension::ratio)}};
   if (wall.first >= 0) {
     facts.emplace_back("thinnest wall", io::quantity(wall.thickness, io::Dimension::length));
-    facts.emplace_back("between perforations", wall.first == wall.second
-                                                   ? fmt::format("{} and its image", wall.first + 1)
-                                                   : fmt::format("{} and {}", wall.first + 1, wall.second + 1));
+    facts.emplace_back("between holes", wall.first == wall.second
+                                            ? fmt::format("{} and its image", wall.first + 1)
+                                            : fmt::format("{} and {}", wall.first + 1, wall.second + 1));
     facts.emplace_back("discs across it", io::number(wall.thickness / mean_diameter));
   }
   return facts;
@@ -121,7 +121,7 @@ void plot_layout(const geometry::PerforationLayout& layout, double mean_diameter
   const TextStyle title_style{.size = 30.0, .bold = true};
   canvas.text(page_margin, 56.0, canvas.fit(options.title, page_width - 2.0 * page_margin, title_style), title_style);
   canvas.text(page_margin, 88.0,
-              wall.first < 0 ? "the design before any run; no perforations"
+              wall.first < 0 ? "the design before any run; no holes"
                              : "the design before any run; orange: its thinnest wall; arrows: loading",
               {.size = 17.0, .colour = palette::soft_ink});
   draw_layout(canvas, box, layout);

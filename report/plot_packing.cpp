@@ -36,7 +36,7 @@ std::vector<Fact> facts_of(const results::PackResult& pack) {
   if (const auto porosity = number("porosity"))
     facts.emplace_back("porosity of the block", io::quantity(*porosity, io::Dimension::ratio));
   if (const auto bonds = number("bonds_per_disc")) facts.emplace_back("bonds per disc", io::number(*bonds));
-  facts.emplace_back("perforations", io::count(pack.layout.perforations.size()));
+  facts.emplace_back("holes", io::count(pack.layout.perforations.size()));
   if (const auto wall = number("thinnest_wall")) {
     std::string text = io::quantity(*wall, io::Dimension::length);
     if (const auto between = number("thinnest_wall_discretised"))

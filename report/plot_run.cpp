@@ -35,7 +35,7 @@ std::string describe_edges(const results::Edges& edges) {
 
 std::string describe_block(const results::RunResult& run) {
   const std::size_t holes = run.layout.perforations.size();
-  return fmt::format("{} block{}, {} perforation{}, {} discs of {} mean diameter, {} bonds",
+  return fmt::format("{} block{}, {} hole{}, {} discs of {} mean diameter, {} bonds",
                      io::quantities({run.width, run.height}, io::Dimension::length, " x "), describe_edges(run.edges),
                      holes, holes == 1 ? "" : "s", io::count(run.clipped.size()),
                      io::quantity(run.mean_diameter, io::Dimension::length), io::count(run.bonds.size()));

@@ -187,20 +187,24 @@ std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path) 
   return parse_summary(file.text("/summary"), path);
 }
 
-void require_kind(const std::vector<io::Entry>& entries, const std::filesystem::path& file, const std::string& kind) {
+std::string command_of(const std::string& kind) {
   static const std::map<std::string, std::string> commands = {{"study", "optimize"},
                                                               {"sweep", "sweep"},
                                                               {"calibration", "calibrate"},
                                                               {"tolerance", "tolerance"},
                                                               {"design", "evaluate"}};
+  return "perfora " + commands.at(kind);
+}
+
+void require_kind(const std::vector<io::Entry>& entries, const std::filesystem::path& file, const std::string& kind) {
   const std::string found = kind_of_entries(entries);
   // What has no section of the others is called a design only where it has one of a design.
   const bool sure = found != "design" || std::any_of(entries.begin(), entries.end(), [](const io::Entry& entry) {
                       return entry.key.starts_with("cell.") || entry.key.starts_with("layout.");
                     });
   if (found == kind || !sure) return;
-  throw io::InputError({file.string(), 0, ""}, fmt::format("this is a {}: perfora {}", found, commands.at(found)), "",
-                       fmt::format("give a {} here, or run perfora {} {}", kind, commands.at(found), file.string()));
+  throw io::InputError({file.string(), 0, ""}, fmt::format("this is a {}: {}", found, command_of(found)), "",
+                       fmt::format("give a {} here, or run {} {}", kind, command_of(found), file.string()));
 }
 
 std::string kind_of_toml(const std::filesystem::path& path) {

@@ -17,9 +17,11 @@ namespace perfora::results {
 /// that is broken or not Perfora's.
 std::optional<nlohmann::json> stored_summary(const std::filesystem::path& path);
 
-/// What a TOML file is, by its sections: "study", "sweep", "calibration" or "design". Throws io::InputError for a file
-/// that cannot be read.
+/// What a TOML file is, by its sections: "study", "sweep", "calibration", "tolerance" or "design". Throws
+/// io::InputError for a file that cannot be read.
 std::string kind_of_toml(const std::filesystem::path& path);
+/// The command that runs a file of this kind: "perfora optimize" for a "study".
+std::string command_of(const std::string& kind);
 
 /// Throws io::InputError for a file that is of another kind than `kind`, one of those above, and names the command for
 /// what it is.

@@ -22,12 +22,12 @@ double thinnest_wall(const PackSummary& pack) {
 
 constexpr Measure table[] = {
     {"discs", &PackSummary::discs, count, packing, "discs", "discs after clipping", 0, 1},
-    {"perforations", &PackSummary::perforations, count, packing, "perforations", "holes of the layout", 0, 2},
+    {"perforations", &PackSummary::perforations, count, packing, "holes", "holes of the layout", 0, 2},
     {"mean_diameter", &PackSummary::mean_diameter, length, packing, "mean diameter",
      "number mean of the disc diameters"},
     {"solid_fraction", &PackSummary::solid_fraction, ratio, packing, "solid fraction of the packing",
      "area of the discs over that of the cell, before clipping", 0, 5},
-    {"porosity", &PackSummary::porosity, ratio, packing, "porosity (share of the perforations)",
+    {"porosity", &PackSummary::porosity, ratio, packing, "porosity (share of the holes)",
      "area of the holes over that of the cell", 0, 3, Sense::within},
     {"bonds_per_disc", &PackSummary::bonds_per_disc, none, packing, "bonds per disc", "twice the bonds over the discs",
      0, 6},

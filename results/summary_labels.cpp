@@ -74,8 +74,8 @@ constexpr Label material[] = {
 constexpr Label estimate[] = {
     {"width", "width of the block", length},
     {"height", "height of the block", length},
-    {"perforations", "perforations", count},
-    {"porosity", "porosity (share of the perforations)", ratio},
+    {"perforations", "holes", count},
+    {"porosity", "porosity (share of the holes)", ratio},
     {"thinnest_wall", "thinnest wall", length},
     {"thinnest_wall_ratio", "thinnest wall / characteristic length", none},
     {"horizon_radius", "horizon r_H", length},

@@ -29,8 +29,7 @@ std::string wall_pair_text(const json& object) {
   const Pair pair = pair_in(object, "thinnest_wall_pair");
   if (!pair.known()) return {};
   const std::string first = io::count(pair.first + 1.0), second = io::count(pair.second + 1.0);
-  return line_text("  between perforations",
-                   first == second ? first + " and its periodic image" : first + " and " + second);
+  return line_text("  between holes", first == second ? first + " and its periodic image" : first + " and " + second);
 }
 
 /// Whether nothing was asked where a measure is missing: there is no wall, no cap, no target.

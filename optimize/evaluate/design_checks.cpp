@@ -260,7 +260,7 @@ void warn_about_resolution(const Design& design, double mean_diameter, std::vect
       warnings.push_back(fmt::format(
           "the mean disc diameter {} is {:.2f} times the reference {}: strength is kept by scaling the "
           "critical "
-          "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (5 to 6 mm for Table "
+          "stretches with it, so the fracture energy and the characteristic length E G/sigma_t^2 (about 6 mm for Table "
           "1 at the "
           "reference) grow {:.2f} times as well{}",
           mean, ratio, reference, ratio, consequence));

@@ -135,8 +135,7 @@ ElasticResponse elastic_response(const DesignFile& design, const EvaluateOptions
   const geometry::PackingQuality& quality = answer.packed.periodic.quality;
   if (!quality.reached || answer.packed.clipped.size() == 0) {
     answer.status = results::RunStatus::failed;
-    answer.reason =
-        quality.reached ? "no disc is left between the perforations" : "packing not reached: " + quality.reason;
+    answer.reason = quality.reached ? "no disc is left between the holes" : "packing not reached: " + quality.reason;
   } else {
     const auto packed = Clock::now();
     solve(design, answer);

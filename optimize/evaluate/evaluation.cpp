@@ -273,7 +273,7 @@ Evaluation evaluate_design(const DesignFile& design, const EvaluateOptions& opti
   }
   if (!packed.periodic.quality.reached || packed.clipped.size() == 0) {
     Evaluation failed =
-        failed_evaluation(packed.periodic.quality.reached ? "no disc is left between the perforations"
+        failed_evaluation(packed.periodic.quality.reached ? "no disc is left between the holes"
                                                           : "packing not reached: " + packed.periodic.quality.reason,
                           replicate, seeds);
     failed.pack = packed.summary;

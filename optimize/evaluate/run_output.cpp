@@ -20,16 +20,16 @@ void require_h5(const fs::path& file, const char* what) {
                          "a name such as result.h5");
 }
 
+/// The folder in which a run keeps what must survive a kill.
+fs::path part_of(fs::path run_file) {
+  return run_file.replace_extension(".part");
+}
+
 }  // namespace
 
 io::OutputLock claim_pack_output(const fs::path& file, bool force) {
   require_h5(file, "the packing file");
-  io::check_output(file, true, false);  // that there is a folder for the lock, and what is there may be replaced
-  io::OutputLock lock(file);
-  if (!force && fs::exists(file))
-    throw io::InputError({file.string(), 0, ""}, "already exists", "",
-                         "--force replaces it, or name another output with -o");
-  return lock;
+  return io::claim_new_output(file, force);
 }
 
 io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resume) {
@@ -37,13 +37,12 @@ io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resum
   io::check_output(run_file, true, false);  // that there is a folder for the lock
   io::OutputLock lock(run_file);
   io::check_output(run_file, force, resume);
-  const std::array<fs::path, 4> beside = {fs::path(run_file).replace_extension(".csv"),
-                                          fs::path(run_file).replace_extension(".xdmf"),
-                                          fs::path(run_file).replace_extension(".xdmf.h5"),
-                                          fs::path(run_file).replace_extension(".html")};
+  const std::array<fs::path, 4> beside = {
+      fs::path(run_file).replace_extension(".csv"), fs::path(run_file).replace_extension(".xdmf"),
+      fs::path(run_file).replace_extension(".xdmf.h5"), fs::path(run_file).replace_extension(".html")};
   if (!resume)
     for (const fs::path& path : beside) io::check_output(path, force, false);
-  const fs::path part = fs::path(run_file).replace_extension(".part");
+  const fs::path part = part_of(run_file);
   if (resume) return lock;
   if (fs::exists(part) && !force)
     throw io::InputError({part.string(), 0, ""}, "holds a run that did not end", "",
@@ -63,7 +62,11 @@ PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOp
   if (!options.packing_file.empty()) require_packing_file(design, options.packing_file, replicate);
   if (options.run_file.empty()) return prepared;
   prepared.lock = claim_run_output(options.run_file, force, options.resume);
-  if (options.resume) static_cast<void>(finished_evaluation(design, options.run_file, replicate));
+  if (!options.resume) return prepared;
+  static_cast<void>(finished_evaluation(design, options.run_file, replicate));
+  if (!fs::exists(options.run_file) && !fs::exists(part_of(options.run_file)))
+    prepared.warnings.push_back("--resume: there is no run to continue in " + options.run_file.string() +
+                                "; this is a new one");
   return prepared;
 }
 

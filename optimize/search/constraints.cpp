@@ -32,9 +32,9 @@ void describe(io::Schema& schema, ConstraintKeys& keys) {
   auto section =
       schema.section("constraints", "What every candidate must keep; checked on its layout before any simulation.");
   section.real("thinnest_wall", keys.thinnest_wall, io::Dimension::length, io::Range::non_negative(),
-               "Smallest wall between perforations; the horizon of the bonds holds as well");
+               "Smallest wall between holes; the horizon of the bonds holds as well");
   section.real_list("porosity", keys.porosity, io::Dimension::ratio, io::Range::between(0.0, 1.0),
-                    "Lowest and highest fraction of the cell that perforations may take");
+                    "Lowest and highest fraction of the cell that holes may take");
 }
 
 LayoutMeasure measure_layout(const DesignFile& design) {

@@ -22,7 +22,7 @@ namespace {
 
 std::string block_line(const RunResult& run) {
   const std::size_t holes = run.layout.perforations.size();
-  return fmt::format("{} block, {} perforation{}, {} discs of {} mean diameter, {} bonds",
+  return fmt::format("{} block, {} hole{}, {} discs of {} mean diameter, {} bonds",
                      io::quantities({run.width, run.height}, io::Dimension::length, " x "), holes,
                      holes == 1 ? "" : "s", io::count(run.clipped.size()),
                      io::quantity(run.mean_diameter, io::Dimension::length), io::count(run.bonds.size()));

@@ -111,7 +111,7 @@ def main():
                 (folder / rest[0]).write_text(rest[1])
                 continue
             command = rest[0]
-            if any(command.startswith(start) for start in ELSEWHERE) or command.startswith(("alias ", "mkdir ")):
+            if any(command.startswith(start) for start in ELSEWHERE) or command.startswith(("alias ", "export ", "mkdir ")):
                 continue
             count += 1
             tried = command if arguments.whole else shortened(command)

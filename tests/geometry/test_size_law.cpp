@@ -14,7 +14,7 @@ namespace {
 
 TEST(SizeLaw, Table1HasExponent290) {
   EXPECT_NEAR(size_law_exponent(0.5044e-3, 1.0e-3, 3.0), 2.90,
-              0.005);  // docs/user/theory.md, "Block, perforations, packing"
+              0.005);  // docs/user/theory.md, "Block, holes, packing"
 }
 
 TEST(SizeLaw, ExponentThreeHasMeanOneHalf) {

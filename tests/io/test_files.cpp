@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "io/files.h"
+#include "io/text_file.h"
 #include "io_support.h"
 
 namespace perfora::io {
@@ -124,6 +125,23 @@ TEST(ReadFile, RefusesWhatIsTooLarge) {
   EXPECT_EQ(read_file(path).size(), 3000000U);
   EXPECT_THAT(input_error([&] { (void)read_file(path, 1U << 20); }), HasSubstr("is larger than 1 MB"));
   EXPECT_THAT(input_error([&] { (void)read_file(path / "b"); }), HasSubstr("check the path"));
+}
+
+TEST(ReadTextFile, TellsWhatAFileIsThatIsNoText) {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& begin) {
+    const auto path = folder.file("a.toml", begin + std::string(2000, 'x'));
+    return input_error([&] { (void)read_text_file(path, 1U << 20, "a design"); });
+  };
+  EXPECT_THAT(said("\x89HDF\r\n\x1a\n"), HasSubstr("a.toml: is an HDF5 file; a design is wanted; perfora show"));
+  EXPECT_THAT(said("\x89PNG\r\n\x1a\n"), HasSubstr("is a PNG picture; a design is wanted"));
+  EXPECT_THAT(said("%PDF-1.7"), HasSubstr("is a PDF file"));
+  EXPECT_THAT(said("\xff\xfe"
+                   "a\0b\0"s),
+              HasSubstr("UTF-8"));
+  EXPECT_EQ(read_text_file(folder.file("b.toml", "%PDF"), 10, "a design"), "%PDF");
+  EXPECT_EQ(read_text_file(folder.file("b.toml", ""), 10, "a design"), "");
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ const json check = json::parse(R"({"schema": "perfora.check/1", "status": "compl
 TEST(SummaryText, Evaluation) {
   EXPECT_THAT(text_of(evaluation),
               AllOf(HasSubstr("stopped: signal\n"), ContainsRegex("seeds +packing 12345678901234"),
-                    ContainsRegex("thinnest wall +5 mm\n.*between perforations +1 and 2\n"),
+                    ContainsRegex("thinnest wall +5 mm\n.*between holes +1 and 2\n"),
                     ContainsRegex("mean diameter +504.4 um"), ContainsRegex("first peak stress +653.4 kPa"),
                     ContainsRegex("first peak strain +1 %"), ContainsRegex("plateau stress +not reached"),
                     ContainsRegex("plateau window +20 to 40 % strain"), ContainsRegex("energy absorbed.* 9.701 kJ/m3"),
