@@ -29,6 +29,8 @@ ELSEWHERE = {
     "python3 -m venv": "python.test_install",
     "my-environment/bin/pip": "python.test_install",
     "PYTHONPATH=build/release/python python3": "python.test_examples",
+    # with the constant rate of FAST the grade is no mere factor
+    "perfora optimize lining-study.toml --map out/lining": "tests/optimize/search/test_study_grade.cpp",
     "perfora optimize designs/study-quick.toml -o out/study-shared": "tests/app/test_shared_commands.cpp",
     "mpirun -n 4 perfora-mpi ": "tests/app/test_mpi.cpp",
     "perfora work ": "tests/app/test_shared_commands.cpp",

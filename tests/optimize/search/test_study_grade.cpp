@@ -69,5 +69,24 @@ TEST_F(StudyOfGrade, OneSimulationASeedServesAllCandidates) {
   }
 }
 
+// A measured curve of half the computed stresses is a grade of 0.5: the folder of the study serves the one of that
+// grade (docs/user/tutorial-mortar.md, section 6).
+TEST_F(StudyOfGrade, FolderServesTheStudyOfAnotherGrade) {
+  const std::string text =
+      "[study]\ndesign = \"design.toml\"\nalgorithm = \"GN_DIRECT_L\"\nmaxeval = 1\nreplicates = 1\n"
+      "final_replicates = 0\n[target]\nwindow = [0.02, 0.06]\nplateau_stress = \"1 MPa\"\n"
+      "[variables]\n\"layout.diameter\" = [\"5 mm\", \"7 mm\"]\n";
+  StudyRun first(read_study(folder.file("study.toml", text)), options("out"));
+  first.run();
+  const double of_one = first.plan().traces.front().visits.front().detail.plateau_mean;
+  ASSERT_GT(of_one, 0.0);
+  const int before = simulated;
+  const std::string half = text + "[map]\nfrom = \"out\"\n[set]\nmaterial.grade = 0.5\n";
+  StudyRun second(read_study(folder.file("half.toml", half)), options("half"));
+  second.run();
+  EXPECT_EQ(simulated, before);
+  EXPECT_NEAR(second.plan().traces.front().visits.front().detail.plateau_mean / of_one, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace perfora::optimize
