@@ -12,14 +12,14 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view hdf5 = "an HDF5 file", no_text = "no UTF-8 text";
+constexpr std::string_view hdf5_file = "an HDF5 file", no_text = "no UTF-8 text";
 
 struct Beginning {
   std::string_view bytes, kind;
 };
 
-constexpr std::array known{
-    Beginning{"\x89HDF\r\n\x1a\n"sv, hdf5},
+constexpr std::array beginnings{
+    Beginning{"\x89HDF\r\n\x1a\n"sv, hdf5_file},
     Beginning{"\x89PNG\r\n\x1a\n"sv, "a PNG picture"},
     Beginning{"%PDF-"sv, "a PDF file"},
     Beginning{"\x1f\x8b"sv, "a gzip archive"},
@@ -29,7 +29,7 @@ constexpr std::array known{
 }  // namespace
 
 std::string not_text(std::string_view beginning) {
-  for (const Beginning& one : known)
+  for (const Beginning& one : beginnings)
     if (beginning.starts_with(one.bytes)) return std::string(one.kind);
   return beginning.find('\0') != std::string_view::npos ? std::string(no_text) : std::string();
 }
@@ -40,7 +40,7 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
   const std::string kind = not_text(read_beginning(path, enough));
   if (kind.empty()) return read_file(path, largest);
   std::string remedy = "name another file";
-  if (kind == hdf5) remedy = "perfora show tells what it holds";
+  if (kind == hdf5_file) remedy = "perfora show tells what it holds";
   if (kind == no_text) remedy = "save it as UTF-8 text, or name another file";
   throw InputError({path.string(), 0, ""}, "is " + kind, wanted + " is wanted", remedy);
 }
