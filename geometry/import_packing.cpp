@@ -15,6 +15,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "io/text.h"
+#include "io/text_file.h"
 #include "io/units.h"
 
 namespace perfora::geometry {
@@ -203,7 +204,7 @@ Discs read_discs(const PackingOptions& options, double width, double height) {
   const auto most = static_cast<std::size_t>(maximum_discs);
   if (is_lammps_dump(beginning))
     return discs_of_lammps(options, read_lammps_dump(io::read_file(options.file), name, most), width, height);
-  if (beginning.starts_with("\x89HDF"))
+  if (io::is_hdf5(beginning))
     throw io::InputError({name, 0, "packing.file"}, "is an HDF5 file", "CSV, or a dump or data file of LAMMPS",
                          "give a packing of perfora by --packing, not as packing.file");
   if (is_lammps_data(beginning))

@@ -1,4 +1,4 @@
-// What is here: reading a whole text file, and telling what a file is that is none.
+// What is here: reading a whole text file, and saying what a file is that is not text.
 // What is not: files of other kinds (files.h, hdf5.h), what a text means (toml.h, csv.h).
 #pragma once
 
@@ -9,11 +9,10 @@
 
 namespace perfora::io {
 
-/// What a file is that begins so: "an HDF5 file", "a PNG picture", ..., "no UTF-8 text" where a NUL byte stands in it;
-/// empty for text.
-std::string not_text(std::string_view beginning);
-/// Reads a whole text file. Throws InputError as read_file() does, and where the file is no text; `wanted` says there
-/// what should be in its place: "a TOML file".
+/// Whether a file that begins so is one of HDF5; its first eight bytes tell.
+bool is_hdf5(std::string_view beginning);
+/// Reads a whole text file. Throws InputError as read_file() does, and where the file is not text; `wanted` says what
+/// should be in its place: "a TOML file".
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest, const std::string& wanted);
 
 }  // namespace perfora::io

@@ -15,6 +15,7 @@
 #include "io/journal.h"
 #include "io/schema.h"
 #include "io/text.h"
+#include "io/text_file.h"
 #include "io/toml.h"
 
 namespace perfora::results {
@@ -24,7 +25,6 @@ constexpr const char* readable_files =
     "a run, packing or checkpoint (.h5), a journal (.jsonl), a result (.json), a design or study (.toml), or the "
     "folder "
     "of a study, sweep, ensemble or calibration";
-constexpr const char* hdf5_signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t checksum_digits = 8;
 constexpr std::size_t longest_list = 6;
 
@@ -213,9 +213,8 @@ std::string kind_of_toml(const std::filesystem::path& path) {
 
 std::string describe_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return describe_folder(path);
-  const std::string start = io::read_beginning(path, std::string_view(hdf5_signature).size());
-  const std::string extension = path.extension().string();
-  if (start.starts_with(hdf5_signature)) return describe_hdf5(path);
+  const std::string start = io::read_beginning(path, 8), extension = path.extension().string();
+  if (io::is_hdf5(start)) return describe_hdf5(path);
   if (extension == ".jsonl") return describe_journal(path);
   if (extension == ".toml") return describe_toml(path);
   refuse_file(path, start.empty() ? "the file is empty" : "not a file that can be described");

@@ -18,6 +18,7 @@
 #include "results/history_file.h"
 #include "results/json.h"
 #include "results/record_reading.h"
+#include "solver/run_folder.h"
 
 namespace perfora::optimize {
 namespace {
@@ -244,10 +245,10 @@ void EvaluationQueue::submit(Executor& executor, const Asked& asked) const {
 }
 
 void EvaluationQueue::drop_run_file(const Request& request) const {
-  std::filesystem::path path = options_.folder / run_file(request);
+  const std::filesystem::path path = options_.folder / run_file(request);
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
-  std::filesystem::remove_all(path.replace_extension(".part"), ignored);
+  std::filesystem::remove_all(solver::RunFolder(path).path(), ignored);
 }
 
 WorkProgress EvaluationQueue::how_far(const Campaign& campaign, const Executor& executor) const {

@@ -14,6 +14,7 @@
 #include "optimize/evaluate/estimate.h"
 #include "optimize/evaluate/material_tests.h"
 #include "solver/grade.h"
+#include "solver/run_folder.h"
 
 namespace perfora::optimize {
 
@@ -130,9 +131,8 @@ Evaluation evaluate_request(const Request& request, int threads, const io::Cance
     } catch (const io::InputError&) {
       // Begun by another program or on another instruction set: begun again. What is wrong with the design is said
       // then.
-      std::filesystem::path unfinished = request.run_file;
-      std::filesystem::remove(unfinished);
-      std::filesystem::remove_all(unfinished.replace_extension(".part"));
+      std::filesystem::remove(request.run_file);
+      std::filesystem::remove_all(solver::RunFolder(request.run_file).path());
       options.resume = false;
       return evaluate_design(design, options, request.replicate);
     }

@@ -7,6 +7,7 @@
 #include "io/error.h"
 #include "io/files.h"
 #include "optimize/evaluate/estimate.h"
+#include "solver/run_folder.h"
 
 namespace perfora::optimize {
 
@@ -18,11 +19,6 @@ void require_h5(const fs::path& file, const char* what) {
   if (file.extension() != ".h5")
     throw io::InputError({"-o", 0, file.string()}, std::string(what) + " does not end in .h5",
                          "a name such as result.h5");
-}
-
-/// The folder in which a run keeps what must survive a kill.
-fs::path part_of(fs::path run_file) {
-  return run_file.replace_extension(".part");
 }
 
 }  // namespace
@@ -42,7 +38,7 @@ io::OutputLock claim_run_output(const fs::path& run_file, bool force, bool resum
       fs::path(run_file).replace_extension(".xdmf.h5"), fs::path(run_file).replace_extension(".html")};
   if (!resume)
     for (const fs::path& path : beside) io::check_output(path, force, false);
-  const fs::path part = part_of(run_file);
+  const fs::path part = solver::RunFolder(run_file).path();
   if (resume) return lock;
   if (fs::exists(part) && !force)
     throw io::InputError({part.string(), 0, ""}, "holds a run that did not end", "",
@@ -64,7 +60,7 @@ PreparedEvaluation prepare_evaluation(const DesignFile& design, const EvaluateOp
   prepared.lock = claim_run_output(options.run_file, force, options.resume);
   if (!options.resume) return prepared;
   static_cast<void>(finished_evaluation(design, options.run_file, replicate));
-  if (!fs::exists(options.run_file) && !fs::exists(part_of(options.run_file)))
+  if (!fs::exists(options.run_file) && !solver::RunFolder(options.run_file).holds_checkpoint())
     prepared.warnings.push_back("--resume: there is no run to continue in " + options.run_file.string() +
                                 "; this is a new one");
   return prepared;

@@ -32,6 +32,7 @@ TEST_F(CommandLine, EvaluateWritesItsReport) {
   EXPECT_GE(record.at("frames"), 2);
   EXPECT_TRUE(fs::exists(folder_ / "film" / "frame-0001.png"));
   EXPECT_EQ(run("movie r.h5 -o film").exit_code, 1);
+  EXPECT_THAT(run("evaluate d.toml -o other.h5 --resume --quiet").error, HasSubstr("no run to continue in other.h5"));
   EXPECT_THAT(run("movie r.h5 -o film.mp4").error, HasSubstr("name the folder: -o film"));
   EXPECT_EQ(run("movie r.h5 -o film --force").exit_code, 0);
 }
